@@ -2,10 +2,10 @@
 
 ``python -m benchmarks.coverage --contacts 1000 --seed 1`` prints which contacts of each class
 converge to it, with the causes of the others, and how the times compare with those of
-``tehl explain``. ``--judge`` solves each that converges once more on
-a grid four times as fine, twice if that takes more than 1025 nodes or 513 of a heated one, and
-prints how the differences compare with the error bars. ``--follow`` solves each that fails once
-more with the settings of its hint. ``--minutes`` bounds the time.
+``tehl explain``. ``--judge`` solves each that converges again on a grid four times
+as fine, twice if that takes more than 1025 nodes or 513 of a heated one, and prints how the
+differences compare with the error bars. ``--follow`` solves each that fails again with the
+settings of its hint. ``--minutes`` bounds the time.
 """
 
 import argparse

@@ -68,6 +68,6 @@ if __name__ == "__main__":
     for speed, (share, bar, area, balance) in main().items():
         print(
             f"{speed:>6g} m/s: {100 * share:5.1f} +- {100 * bar:.0f} % of the load on contact, "
-            f"on {100 * area:5.1f} % of the Hertz area; oil made or lost {balance:.0e}"
+            f"on {100 * area:5.1f} % of the Hertz area; mass-balance error {balance:.0e}"
         )
     draw(out)

@@ -25,7 +25,7 @@ class Conclusion:
     name: str
     verdict: str  # "true", "false", or "only ..."
     statements: list[Statement]
-    brief: str = ""  # the most telling numbers
+    brief: str = ""  # the numbers that decide
 
     @property
     def text(self) -> str:

@@ -229,7 +229,7 @@ def _map(axes: Any, fields: Any, values: Array, **options: Any) -> Any:
 
 def _centre_lines(axes: Any, run: pd.Series, runs: Runs) -> None:
     """Draw P and H along Y = 0: lines converged, dots on the paper's grid."""
-    twin = axes.twinx()
+    right = axes.twinx()
     result = runs.result(run.case)
     x = result.scaled.x
     axes.plot(x, np.sqrt(np.maximum(1.0 - x**2, 0.0)), color="0.6", ls=":", lw=1.2)
@@ -240,14 +240,14 @@ def _centre_lines(axes: Any, run: pd.Series, runs: Runs) -> None:
     for one, style in shown:
         fields = one.scaled
         axes.plot(fields.x, centre_line(one, fields.pressure), color=BLUE, **style)
-        twin.plot(fields.x, centre_line(one, fields.film), color=ORANGE, **style)
+        right.plot(fields.x, centre_line(one, fields.film), color=ORANGE, **style)
     if coarse.empty:
-        twin.axhline(run.H_c_on_grid, color=ORANGE, lw=0.6, ls="--")
+        right.axhline(run.H_c_on_grid, color=ORANGE, lw=0.6, ls="--")
     axes.set(xlim=(-2.0, 1.5), ylim=(0.0, max(1.65, 1.04 * run.P_max)), xlabel="X")
     axes.set_ylabel("P", color=BLUE, labelpad=1)
-    twin.set_ylim(0.0, 2.4 * max(run.H_c_on_grid, 1e-3))
-    twin.set_ylabel("H", color=ORANGE, labelpad=2)
-    for one in (axes, twin):
+    right.set_ylim(0.0, 2.4 * max(run.H_c_on_grid, 1e-3))
+    right.set_ylabel("H", color=ORANGE, labelpad=2)
+    for one in (axes, right):
         one.tick_params(labelsize=8)
     _note(axes, _films(run))
 

@@ -169,17 +169,34 @@ def is_number(value: ast.AST | None) -> bool:
     return isinstance(value, ast.Constant) and type(value.value) in (int, float)
 
 
+def numeric_values(tree: ast.Module) -> list[tuple[str, float]]:
+    """Return the names and values of the constants of a module that are numbers."""
+    found = []
+    for node in tree.body:
+        if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+            pairs = [(node.target, node.value)]
+        elif isinstance(node, ast.Assign):
+            pairs = [pair for target in node.targets for pair in assigned(target, node.value)]
+        else:
+            continue
+        found += [
+            (target.id, eval(ast.unparse(value)))
+            for target, value in pairs
+            if isinstance(target, ast.Name) and value is not None and is_number(value)
+        ]
+    return found
+
+
+def assigned(target: ast.expr, value: ast.expr) -> list[tuple[ast.expr, ast.expr]]:
+    """Return the names that an assignment sets with their values, those of a tuple one by one."""
+    if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple):
+        return list(zip(target.elts, value.elts, strict=True))
+    return [(target, value)]
+
+
 def numeric_constants(tree: ast.Module) -> int:
     """Return the number of constants of a module that are numbers."""
-    count = 0
-    for node in tree.body:
-        if isinstance(node, ast.AnnAssign):
-            count += is_number(node.value)
-        elif isinstance(node, ast.Assign):
-            values = node.value.elts if isinstance(node.value, ast.Tuple) else [node.value]
-            is_list = isinstance(node.value, ast.Tuple) and isinstance(node.targets[0], ast.Name)
-            count += 0 if is_list else len(node.targets) * sum(map(is_number, values))
-    return count
+    return len(numeric_values(tree))
 
 
 def with_sections(package: Path = PACKAGE) -> float:

@@ -56,6 +56,7 @@ def test_the_house_is_seen_in_a_minute():
     assert found["imports inside functions"] < 60
     assert found["files that name load_share"] <= 2
     assert found["files that name mid_film_rise_central"] <= 2
+    assert found["% of public docstrings with sections"] >= 60
 
 
 def test_a_circle_is_found():

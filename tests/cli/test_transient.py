@@ -162,7 +162,7 @@ def test_a_broken_checkpoint_is_rejected(folder, run):
     (folder / "wave.nc.checkpoint").write_bytes(b"PK\x03\x04 and then nothing")
     done = run("solve", "wave.toml", "--resume")
     assert done.code == 2
-    assert "is not a whole checkpoint" in done.err
+    assert "is not a complete checkpoint" in done.err
 
 
 @pytest.fixture

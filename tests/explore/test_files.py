@@ -3,7 +3,7 @@
 import pytest
 
 from tehl.base.errors import InputError
-from tehl.explore.files import LARGEST, Files, named_files
+from tehl.explore.files import LARGEST_UPLOAD, Files, named_files
 
 
 def case_with(name):
@@ -50,7 +50,7 @@ def test_a_profile_of_oil_is_a_file_too():
 
 def test_uploads_have_a_limit_and_a_known_ending(files):
     with pytest.raises(InputError, match="larger than 50 MB"):
-        files.keep("a.csv", b"0" * (LARGEST + 1))
+        files.keep("a.csv", b"0" * (LARGEST_UPLOAD + 1))
     with pytest.raises(InputError, match="not a format of heights"):
         files.keep("a.exe", b"0")
 

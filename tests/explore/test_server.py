@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("nicegui", reason="needs pip install 'tehl[explore]'")
 
-from tehl.explore.case_text import LONGEST
+from tehl.explore.case_text import LONGEST_ADDRESS
 from tehl.explore.server import ADDRESS, REFUSED, TOO_LONG, Guard
 
 PORT, TOKEN = 8765, "secret"
@@ -56,7 +56,7 @@ def test_two_pages_of_one_machine_have_cookies_of_their_own():
 
 
 def test_a_link_that_is_too_long_is_a_sentence():
-    assert reply_to(f"token={TOKEN}&case={'a' * LONGEST}")[0] == 200
-    status, _, text = reply_to(f"token={TOKEN}&case={'a' * (LONGEST + 1000)}")
+    assert reply_to(f"token={TOKEN}&case={'a' * LONGEST_ADDRESS}")[0] == 200
+    status, _, text = reply_to(f"token={TOKEN}&case={'a' * (LONGEST_ADDRESS + 1000)}")
     assert status == 414
     assert TOO_LONG in text

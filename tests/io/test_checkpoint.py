@@ -35,7 +35,7 @@ def test_a_damaged_header_is_reported(tmp_path, found, place, harm):
     content = path.read_bytes()
     start = content.rindex(found) + place
     path.write_bytes(content[:start] + harm + content[start + len(harm) :])
-    with pytest.raises(FileFormatError, match="is not a whole checkpoint"):
+    with pytest.raises(FileFormatError, match="is not a complete checkpoint"):
         read_checkpoint(path, OWNER)
 
 

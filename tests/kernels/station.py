@@ -14,7 +14,7 @@ from numpy.polynomial.polynomial import polyder, polyval
 
 from tehl.base.typing import Array
 from tehl.kernels.energy.column import CONDUCTION, TO_WALLS
-from tehl.kernels.energy.march import LARGEST_FALL, LARGEST_GROWTH, LARGEST_STEP
+from tehl.kernels.energy.march import LARGEST_FALL, LARGEST_FLUIDITY_GROWTH, LARGEST_KELVIN_STEP
 from tehl.kernels.energy.records import ETA_TERMS, GHOSTS, Across, Fields, Laws, Model, Surfaces
 
 
@@ -327,7 +327,7 @@ def flow(model: Model, at: Station) -> Column:
 
 def follow(model: Model, at: Station, column: Column, new: Array) -> None:
     """Take the new temperatures; laws and stress follow to first order."""
-    step = np.clip(new - at.t, -LARGEST_STEP, LARGEST_STEP)
+    step = np.clip(new - at.t, -LARGEST_KELVIN_STEP, LARGEST_KELVIN_STEP)
     at.t = at.t + step
     fall = np.sum(column.share(model.across) * step, axis=0)
     fall = np.clip(fall, -LARGEST_FALL, LARGEST_FALL)
@@ -337,7 +337,7 @@ def follow(model: Model, at: Station, column: Column, new: Array) -> None:
     column.ln_eta = column.ln_eta - column.gamma * step
     column.rho = column.rho + column.rho_t * step
     growth = column.gamma * step - (column.exponent - 1.0) * fall
-    growth = np.exp(np.clip(growth, -LARGEST_GROWTH, LARGEST_GROWTH))
+    growth = np.exp(np.clip(growth, -LARGEST_FLUIDITY_GROWTH, LARGEST_FLUIDITY_GROWTH))
     column.phi, column.along_x = column.phi * growth, column.along_x * growth
     column.along_y = column.along_y * growth
     column.u, column.v = velocities(model, at, column.phi)
@@ -360,7 +360,7 @@ def outputs(model: Model, at: Station, column: Column) -> dict[str, Array]:
         "effective": np.exp(-column.ln_eta[middle]) / column.phi[middle],
         "stretch_x": mobility(across, column.rho, column.along_x) / whole,
         "stretch_y": mobility(across, column.rho, column.along_y) / whole,
-        "askew": np.max(column.along_y / column.phi - 1.0, axis=0),
+        "excess_y": np.max(column.along_y / column.phi - 1.0, axis=0),
         "shear": at.h * (weights @ shear),
         "work": at.h * (weights @ compression),
         "enthalpy_x": at.h * (weights @ (carried * column.u)),

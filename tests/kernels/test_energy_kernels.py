@@ -8,7 +8,7 @@ from tehl.contact.options import Domain
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels.energy.march import sweep
-from tehl.kernels.energy.outputs import STRAIGHT
+from tehl.kernels.energy.outputs import NEGLIGIBLE_EXCESS
 from tehl.kernels.energy.records import BLOCK
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import HeatedFilm
@@ -56,8 +56,9 @@ def swept(state):
     surfaces = [surface._replace(flux=surface.flux.copy()) for surface in state.surfaces]
     twin = station.sweep(state.model, fields, type(state.surfaces)(*surfaces))
     state.sweep(60)
-    askew = twin.pop("askew").reshape(len(fields.p), -1, BLOCK).max(axis=2)
-    straight = np.repeat(askew <= STRAIGHT, BLOCK, axis=1)  # blocks that need no other mobility
+    excess_y = twin.pop("excess_y").reshape(len(fields.p), -1, BLOCK).max(axis=2)
+    # blocks that need no other mobility
+    straight = np.repeat(excess_y <= NEGLIGIBLE_EXCESS, BLOCK, axis=1)
     twin["stretch_y"] = np.where(straight, 1.0, twin["stretch_y"])
     twin["temperature"] = fields.temperature[2:-2, :, 2:-2]
     twin["flux_1"], twin["flux_2"] = (surface.flux[2:-2] for surface in surfaces)

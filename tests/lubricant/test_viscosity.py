@@ -18,7 +18,7 @@ from tehl.lubricant import (
     ViscosityLaw,
     Walther,
 )
-from tehl.lubricant.law import LARGEST_EXPONENT
+from tehl.lubricant.law import LARGEST_LAW_EXPONENT
 
 ROELANDS = Roelands(eta_0=0.04, alpha=2.2e-8, gamma=0.042)
 BARUS = Barus(eta_0=0.04, alpha=2.2e-8, gamma=0.042)
@@ -82,7 +82,7 @@ def test_no_pressure_overflows(law: ViscosityLaw, pressure: float):
     value = law.viscosity(np.full((2, 3), pressure), np.full((2, 3), law.reference_temperature))
     assert value.shape == (2, 3)
     assert np.isfinite(value).all()
-    assert value.max() <= law.eta_0 * math.exp(LARGEST_EXPONENT) * (1 + 1e-9)
+    assert value.max() <= law.eta_0 * math.exp(LARGEST_LAW_EXPONENT) * (1 + 1e-9)
     assert value.min() >= law.eta_0 * (1 - 1e-9)
 
 

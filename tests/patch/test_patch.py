@@ -248,6 +248,6 @@ def test_a_patch_has_no_place(tmp_path, name):
 
 
 def test_a_patch_whose_contact_does_not_converge_is_refused(monkeypatch):
-    monkeypatch.setattr(contact, "MOST", 1)
+    monkeypatch.setattr(contact, "MOST_ITERATIONS", 1)
     with pytest.raises(InputError, match="does not converge; a lambda_s removes spikes"):
         patch_curves(1e-4 * random_patch(32), (1e-6, 1e-6))

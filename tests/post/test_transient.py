@@ -10,7 +10,7 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import TransientResult
 from tehl.base.errors import InputError
 from tehl.cli.text import as_text
-from tehl.estimate.duration import BEYOND
+from tehl.estimate.duration import PASSED_DISTANCE
 from tehl.post.transient import envelope, largest_change, moving_profiles, passing_features
 from tehl.post.waves import passing_wave
 from tests.fixtures_result import CASE, make_result
@@ -186,7 +186,7 @@ def test_a_map_that_repeats_passes_whole_in_the_duration_that_is_named(tmp_path,
         return
     units, motion = run.start.scales, problem.motion
     slower = min(motion.speed_1, units.speed)
-    distance = 400 * 1e-5 + (2.5 + BEYOND) * units.half_width_x
+    distance = 400 * 1e-5 + (2.5 + PASSED_DISTANCE) * units.half_width_x
     assert repeated.longer_duration == pytest.approx(distance / slower)
     assert "repeats at its edges has not passed whole" in as_text(repeated)
     (tmp_path / "map.npy").unlink()

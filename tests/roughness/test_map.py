@@ -122,7 +122,7 @@ def test_fine_maps_on_coarse_meshes_are_filtered_on_a_lattice_of_the_mesh(file, 
     surface = stated(file, rotate=f"{angle} deg")
     mesh = (24 * PIXEL, 32 * PIXEL)
     whole = surface.resolved_on(*mesh)
-    monkeypatch.setattr("tehl.roughness.tile.is_roomy", lambda *_: True)
+    monkeypatch.setattr("tehl.roughness.tile._is_roomy", lambda *_: True)
     coarse = surface.resolved_on(*mesh)
     assert coarse.heights.size < 0.7 * whole.heights.size
     assert coarse.size == pytest.approx(whole.size)

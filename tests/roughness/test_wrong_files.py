@@ -55,19 +55,19 @@ WRONG = {
     "a single number": ("a.npy", saved(np.float64(1)), "array of shape no"),
     "several layers": ("a.npy", saved(np.zeros((2, 3, 4))), "shape 2 x 3 x 4"),
     "text garbage": ("a.csv", b"1 2 3 4\n1 2 hello 4\n", "line 2 has 'hello'"),
-    "prose": ("a.txt", b"It was a dark and stormy night; the rain fell.", "line 1 has|no numbers"),
+    "prose": ("a.txt", b"It was a dark and stormy night; the rain fell.", "line 1 has|only text"),
     "words above": (
         "a.txt",
         b"Zygo XYZ Data\nsome more\n1 2 3\n",
         'line 2 .* header are "key: val',
     ),
-    "half npz": ("a.npz", b"PK\x03\x04" + b"\0" * 99, "not a whole .npz file"),
+    "half npz": ("a.npz", b"PK\x03\x04" + b"\0" * 99, "not a complete .npz file"),
     "binary text": ("a.txt", b"\x89PNG\xff\xfe\x00", "not a text in UTF-8"),
     "ragged": ("a.csv", b"1,2,3,4\n1,2,3\n", "line 2 has 3 numbers, .* have 4"),
     "ragged by two": ("a.csv", b"1,2,3,4\n1,2,\n", "line 2 has 2 numbers, .* have 4"),
     "longer": ("a.csv", b"1,2,3,\n1,2,3,4,\n", "line 2 has 4 numbers, .* have 3"),
     "underscores": ("a.csv", b"1,2,3,4\n1,2,3_0,4\n", "line 2 has '3_0', which is not a number"),
-    "only names": ("a.csv", b"x,y,z\n", "holds no numbers"),
+    "only names": ("a.csv", b"x,y,z\n", "contains only text"),
     "nothing": ("a.csv", b"", "is empty"),
     "two heights": ("a.xyz", b"0 0 1\n1 0 1\n0 1 1\n1 1 1\n1 1 2\n", "several heights at one"),
     "four columns": ("a.xyz", b"0 0 1 1\n1 0 1 1\n", "has 4 columns"),
@@ -80,7 +80,7 @@ WRONG = {
     "garbage netcdf": ("a.nc", b"\x00\x01" * 99, "is not a NetCDF file"),
     "half netcdf": ("a.nc", b"\x89HDF\r\n\x1a\n" + b"\0" * 99, "truncated or damaged"),
     "classic netcdf": ("a.nc", b"CDF\x01\0\0\0\0\0\0", "truncated or damaged"),
-    "no zip": ("a.x3p", b"PK\x03\x04" + b"\0" * 99, "not a whole x3p"),
+    "no zip": ("a.x3p", b"PK\x03\x04" + b"\0" * 99, "not a complete x3p"),
     "picture": ("a.png", b"\x89PNG", "ending that is not a format"),
     "pickle file": ("a.pkl", b"\x80\x04.", "ending that is not a format"),
     "no ending": ("a", b"1 2 3 4", "ending that is not a format"),
@@ -109,7 +109,7 @@ def test_wrong_files_are_reported(tmp_path, case):
         ({"nx": 5000, "ny": 5000}, "truncated"),
         ({"nx": 8}, "larger than its header allows"),
         ({"nx": "1e3"}, "no count at SizeX"),
-        ({"dx": "wide"}, "no number at Record1/Axes/CX"),
+        ({"dx": "wide"}, "lacks a number at Record1/Axes/CX"),
         ({"dx": 0}, "not positive"),
         ({"feature": "PRF"}, "type PRF"),
         ({"valid": "<ValidPointsLink>../../etc/passwd</ValidPointsLink>"}, "without"),
@@ -132,7 +132,7 @@ def test_a_flipped_byte_of_packed_heights_is_reported_or_without_effect(tmp_path
         try:
             np.testing.assert_array_equal(read(path).heights, HEIGHTS)
         except InputError as error:
-            assert "not a whole x3p" in str(error)  # noqa: PT017 (a byte may have no effect)
+            assert "not a complete x3p" in str(error)  # noqa: PT017 (a byte may have no effect)
 
 
 @pytest.mark.parametrize("encoding", ["foo", "rot13", "hex", "utf-7"])

@@ -237,7 +237,7 @@ def test_the_balance_of_the_oil_is_printed_and_small(mixed):
     balance = mixed.load_sharing.balance
     assert 0.0 < balance < 0.02  # of the same size as the error in the inlet
     assert mixed.summary()["load_sharing"]["balance"] == balance
-    assert f"{balance:.1e} of what enters" in as_text(mixed)
+    assert f"{balance:.1e} of the inflow" in as_text(mixed)
     assert f"{balance:.1e}" in report_text(mixed, dpi=30)
 
 
@@ -665,4 +665,4 @@ def test_asperities_whose_oil_does_not_balance_fail_by_name(monkeypatch):
         solve(problem, options)
     status = failure.value.result.status
     assert status.cause == "oil_not_balanced"
-    assert "20 % of what enters is made or lost" in status.message
+    assert "mass-balance error is 20 % of the inflow" in status.message

@@ -6,13 +6,13 @@ import pytest
 from tehl.kernels.properties import Factors
 from tehl.result.solution import CycleReport
 from tehl.solver.judging.convergence import (
+    LEAST_CONVERGENCE_RATE,
     LEAST_CYCLES,
-    LEAST_RATE,
     GridTrace,
     film_converged,
 )
 from tehl.solver.judging.grid_errors import UNEVEN, error_estimate, further_errors
-from tehl.solver.physics.thermal import LARGEST_STEP, damped
+from tehl.solver.physics.thermal import LARGEST_LOG_STEP, damped
 
 
 @pytest.mark.parametrize("damping", [0.3, 0.5])
@@ -28,7 +28,7 @@ def test_the_iteration_error_of_a_damped_cycle_is_not_underestimated(damping: fl
 
 def test_a_damping_factor_of_one_changes_nothing() -> None:
     trace = GridTrace(damping=1.0)
-    assert (trace.least_cycles, trace.central.least_rate) == (LEAST_CYCLES, LEAST_RATE)
+    assert (trace.least_cycles, trace.central.least_rate) == (LEAST_CYCLES, LEAST_CONVERGENCE_RATE)
 
 
 @pytest.mark.parametrize(("coarse", "bar"), [(0.010, 0.35), (0.0, 0.70), (-0.020, 2.0)])
@@ -62,9 +62,9 @@ def test_a_sweep_changes_the_factors_by_a_limited_step() -> None:
     old = Factors(*(np.array([value]) for value in (0.0, 1.0, 1.0, 1.0, 1.0)))
     new = Factors(*(np.array([value]) for value in (3e8, 1e9, 1.0, 20.0, 0.1)))
     step = damped(old, new, np.array([1.0]), 1.0)
-    assert step.rest + step.mobility == pytest.approx(np.exp(LARGEST_STEP))
-    assert step.stretch_x == pytest.approx(np.exp(LARGEST_STEP))
-    assert step.stretch_y == pytest.approx(np.exp(-LARGEST_STEP))
+    assert step.rest + step.mobility == pytest.approx(np.exp(LARGEST_LOG_STEP))
+    assert step.stretch_x == pytest.approx(np.exp(LARGEST_LOG_STEP))
+    assert step.stretch_y == pytest.approx(np.exp(-LARGEST_LOG_STEP))
 
 
 def test_the_heat_of_a_surface_has_half_the_error_of_the_heat_that_it_is_part_of() -> None:

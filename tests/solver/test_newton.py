@@ -15,13 +15,13 @@ from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
 from tehl.result.solution import Status
 from tehl.solver import steady
 from tehl.solver.cycle import iteration
-from tehl.solver.cycle.continuation import MOST_STEPS, RAISED, raise_by_newton
+from tehl.solver.cycle.continuation import MOST_NEWTON_STEPS, RAISED_RESIDUAL, raise_by_newton
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.ladder import BETWEEN_ROUGH, Strategy
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import (
-    ACCURACY,
-    EXACT,
+    LINEAR_RESIDUAL,
+    RETRY_RESIDUAL,
     Newton,
     Preconditioner,
     System,
@@ -129,11 +129,11 @@ def test_a_step_that_fails_is_repeated_with_more_accurate_linear_equations(
     def misled(self: System, preconditioner: Any, accuracy: float) -> Any:
         accuracies.append(accuracy)
         change = solve_system(self, preconditioner, accuracy)
-        return -change if accuracy > EXACT else change
+        return -change if accuracy > RETRY_RESIDUAL else change
 
     monkeypatch.setattr(System, "solve", misled)
     assert newton.step() == 1.0
-    assert accuracies == [ACCURACY, EXACT]
+    assert accuracies == [LINEAR_RESIDUAL, RETRY_RESIDUAL]
     assert fine.evaluate_residual() < 0.5 * before
 
 
@@ -230,7 +230,7 @@ def test_heights_are_raised_on_the_finest_grid_if_the_start_from_the_coarser_fil
     monkeypatch.setattr(Newton, "line_search", failing)
     again = finished(problem, options)
     assert raised == [(33, False), (33, False), (65, True)]
-    assert plain.history[-1].residual < RAISED
+    assert plain.history[-1].residual < RAISED_RESIDUAL
     assert again.film_scaled.minimum == pytest.approx(plain.film_scaled.minimum, rel=1e-3)
     assert again.film_scaled.central == pytest.approx(plain.film_scaled.central, rel=1e-4)
 
@@ -255,7 +255,7 @@ def test_heights_are_not_raised_again_if_the_coarser_film_is_negative(
     assert (run.status.kind, run.status.cause) == ("diverged", "grid_too_coarse")
     assert "of 33 x 33 nodes, is not positive (smallest H = -" in (run.status.message or "")
     assert "more nodes" in str(run.status.hint)
-    assert sum(report.points[0] == 65 for report in run.history) <= MOST_STEPS
+    assert sum(report.points[0] == 65 for report in run.history) <= MOST_NEWTON_STEPS
 
 
 @pytest.mark.slow
@@ -316,7 +316,7 @@ def test_the_last_relaxation_before_newton_continues_to_the_finest_grid(
     sheared = smooth.model_copy(update={"lubricant": thinning(smooth)})
     for problem in (smooth, sheared):
         finished(problem, Options(points=33, domain=DOMAIN))
-    relaxed = [("rough", False), ("careful", False), ("gentle", True)]
+    relaxed = [("rough", False), ("careful", False), ("damped", True)]
     assert seen == [*relaxed, ("newton", True), *relaxed]
 
 

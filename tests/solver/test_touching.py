@@ -229,7 +229,7 @@ def test_a_result_with_contact_is_stored_shown_and_drawn(bump: Result, tmp_path)
     text = as_text(bump)
     assert "share of the load not known" in text
     assert "friction  " not in text
-    assert "made or lost in film and contact" in text
+    assert "mass-balance error of film and contact" in text
 
 
 def test_a_contact_without_boundary_film_has_no_map_of_contact():

@@ -71,7 +71,17 @@ def case_from_tables(
 ) -> tuple[ContactProblem, Options]:
     """Return problem and options of the parsed tables of a case, checked as those of a file.
 
-    Relative paths of measured surfaces begin in ``folder``, by default the working directory.
+    Parameters
+    ----------
+    tables : Mapping
+        As of the TOML of a case file; quantities are texts with a unit, or numbers in SI.
+    folder : Path or None
+        Where relative paths of measured surfaces begin; None is the working directory.
+
+    Raises
+    ------
+    InputError
+        If a key or a value is invalid, in one sentence.
     """
     problem, options = case.case_from_tables(tables, folder)
     return ContactProblem.of(problem), options

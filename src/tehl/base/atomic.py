@@ -11,7 +11,7 @@ from pathlib import Path
 
 from tehl.base.errors import InputError
 
-_NAMED = 40
+_NAME_LETTERS = 40
 """Letters of a file in the name of its temporary one."""
 
 
@@ -25,7 +25,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
     """
     check_writable(path)
     target = Path(os.path.realpath(path))
-    temporary = target.with_name(f".{target.name[:_NAMED]}.{uuid.uuid4().hex[:12]}.part")
+    temporary = target.with_name(f".{target.name[:_NAME_LETTERS]}.{uuid.uuid4().hex[:12]}.part")
     try:
         yield temporary
         temporary.replace(target)
@@ -41,17 +41,27 @@ def remove_with_parts(path: str | Path) -> None:
     """Remove a file if it exists, and temporary files left by a killed program."""
     target = Path(os.path.realpath(path))
     target.unlink(missing_ok=True)
-    if len(target.name) > _NAMED:  # others may begin with the same letters
+    if len(target.name) > _NAME_LETTERS:  # others may begin with the same letters
         return
     for part in target.parent.glob(f".{glob.escape(target.name)}.*.part"):
         part.unlink(missing_ok=True)
 
 
 def check_writable(path: str | Path, *, sources: tuple[str | Path, ...] = ()) -> None:
-    """Raise an InputError if an output file could not be written, before any work for it.
+    """Check that an output file can be written, before any work for it.
 
-    That is if ``path`` is one of the ``sources`` read for it, not a regular file or
-    write-protected, or if its folder is missing or not writable.
+    Parameters
+    ----------
+    path : str or Path
+        The output; a link is followed.
+    sources : tuple of str or Path
+        Inputs of the same command, which must not be overwritten.
+
+    Raises
+    ------
+    InputError
+        If it is one of the sources, not a regular file or write-protected, or if its folder is
+        missing or not writable.
     """
     _check_kind(path)  # an invalid name too
     shown, target = shortened(path), Path(os.path.realpath(path))

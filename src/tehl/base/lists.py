@@ -15,7 +15,7 @@ from tehl.base.errors import InputError
 
 _DECIMAL_COMMA = re.compile(r"^([+-]?\d+),(\d+)(?=[eE\s]|$)")
 _UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
-_LARGEST = 50_000_000
+_LARGEST_LIST = 50_000_000
 """Bytes of a list."""
 _PACKAGES = {".xlsx": ("openpyxl", "xlsx"), ".parquet": ("pyarrow", "parquet")}
 """Packages of formats, and the extras that install them."""
@@ -24,7 +24,17 @@ _PACKAGES = {".xlsx": ("openpyxl", "xlsx"), ".parquet": ("pyarrow", "parquet")}
 def values_of_file(path: Path, column: str) -> list[Any]:
     """Return the values of one column of a CSV file, with the unit of its heading.
 
-    A file with a single column may have any heading. An InputError names file and columns.
+    Parameters
+    ----------
+    path : Path
+        CSV with a first line of headings, such as ``load [N]``.
+    column : str
+        Heading without its unit; a file with a single column may have any.
+
+    Raises
+    ------
+    InputError
+        If the column is missing or the file cannot be read; the message names file and columns.
     """
     shown = shortened(path)
     lines = lines_of_file(path)
@@ -40,15 +50,31 @@ def values_of_file(path: Path, column: str) -> list[Any]:
 def lines_of_file(path: Path, what: str = "list of cases") -> list[list[str]]:
     """Return the cells of the lines of a file that are not empty, all of the same number.
 
-    ``.xlsx`` is read as Excel, its first sheet; all others as CSV.
-
-    Messages call the file ``what``.
+    Parameters
+    ----------
+    path : Path
+        ``.xlsx`` is read as Excel, its first sheet; all others as CSV.
+    what : str
+        How messages call the file.
     """
     return [line for _, line in numbered_lines(path, what)]
 
 
 def numbered_lines(path: Path, what: str = "list of cases") -> list[tuple[int, list[str]]]:
-    """Return the same with the numbers of the lines."""
+    """Return the lines of :func:`lines_of_file` with their numbers in the file.
+
+    Parameters
+    ----------
+    path : Path
+        Excel or CSV, whose delimiter is found from the first line.
+    what : str
+        How messages call the file.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, too large or cannot be read, or its lines differ in length.
+    """
     if path.suffix.lower() == ".xlsx":
         return [
             (number, ["" if cell is None else str(cell) for cell in line])
@@ -56,8 +82,8 @@ def numbered_lines(path: Path, what: str = "list of cases") -> list[tuple[int, l
         ]
     shown = shortened(path)
     try:
-        if path.stat().st_size > _LARGEST:
-            raise InputError(f"{shown} is larger than {_LARGEST // 10**6} MB, so not a {what}")
+        if path.stat().st_size > _LARGEST_LIST:
+            raise InputError(f"{shown} is larger than {_LARGEST_LIST // 10**6} MB, so not a {what}")
         with path.open("rb") as start:
             encoding = encoding_of(start.read(2))
         with path.open(encoding=encoding, newline="") as file:
@@ -84,6 +110,13 @@ def lines_of_sheet(path: Path, what: str = "list of cases") -> list[tuple[int, l
     """Return the numbers and the cells of the rows of the first Excel sheet that are not empty.
 
     All rows have as many cells as the first one has headings; an empty cell is None.
+
+    Parameters
+    ----------
+    path : Path
+        An ``.xlsx`` file; formulas have the values that Excel stored.
+    what : str
+        How messages call the file.
     """
     check_package("openpyxl", "xlsx", path)
     from openpyxl import load_workbook  # noqa: PLC0415 (an extra)
@@ -120,7 +153,22 @@ def check_format(path: Path, endings: Sequence[str], what: str) -> None:
 
 
 def check_package(package: str, extra: str, path: Path) -> None:
-    """Raise an InputError that names the extra if a package for a format is missing."""
+    """Check that a package for a format is installed.
+
+    Parameters
+    ----------
+    package : str
+        Name by which it is imported.
+    extra : str
+        Extra of this package that installs it.
+    path : Path
+        File that needs it, named by the message.
+
+    Raises
+    ------
+    InputError
+        If it is missing; the message has the command that installs it.
+    """
     if find_spec(package) is None:
         raise InputError(f'{path}: needs {package}; install it with pip install "tehl[{extra}]"')
 
@@ -142,7 +190,15 @@ def heading(cell: str) -> tuple[str, str]:
 
 
 def value_of(cell: str, unit: str) -> object:
-    """Return the value of a cell of a column with a unit."""
+    """Return the value of a cell of a column with a unit.
+
+    Parameters
+    ----------
+    cell : str
+        Stripped text of the cell.
+    unit : str
+        Of the heading; empty, "-" and "1" leave a plain number, text or truth value.
+    """
     return f"{cell} {unit}" if unit not in ("", "-", "1") else plain_value(cell)
 
 

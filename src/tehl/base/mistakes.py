@@ -87,7 +87,17 @@ def describe(error: ValidationError, data: object, model: Model, prefix: str = "
 
 
 def of_call(error: ValidationError, values: Mapping[str, Any], model: Model) -> InputError:
-    """Return the first mistake of a call ``model(**values)`` in Python as an error to raise."""
+    """Return the first mistake of a call ``model(**values)`` in Python as an error to raise.
+
+    Parameters
+    ----------
+    error : ValidationError
+        What pydantic raised.
+    values : Mapping
+        Arguments of the call, quoted by the message.
+    model : Model
+        The class that was called; its name replaces the path of the table.
+    """
     return InputError(describe(error, values, model, model.__name__))
 
 
@@ -420,7 +430,15 @@ def example(field: FieldInfo) -> str | None:
 
 
 def key_paths(model: Model, prefix: str = "") -> Iterator[str]:
-    """Yield the paths of all keys of a model, those of tables in it included."""
+    """Yield the paths of all keys of a model, those of tables in it included.
+
+    Parameters
+    ----------
+    model : Model
+        Class of the outermost table.
+    prefix : str
+        Path of that table with a final dot; empty for a whole case.
+    """
     for key, field in model.model_fields.items():
         yield f"{prefix}{key}"
         for deeper in _models(field.annotation):

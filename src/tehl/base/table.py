@@ -32,7 +32,7 @@ class Table(BaseModel, metaclass=_OneSentence):
     )
 
     other_words: ClassVar[Mapping[str, str]] = {}
-    """What to write for keys that are no misspelling of the right one."""
+    """What to write for keys that are not a misspelling of the right one."""
     synonyms: ClassVar[Mapping[str, str]] = {}
     """Other words for a key, in lower case; a key of another table has its path."""
     not_tables: ClassVar[Mapping[str, str]] = {}

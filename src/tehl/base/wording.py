@@ -6,12 +6,30 @@ import re
 
 
 def suggestion_for(word: str, known: list[str]) -> str:
-    """Return the question after the word that is most alike, or all known ones."""
+    """Return the question after the word that is most alike, or all known ones.
+
+    Parameters
+    ----------
+    word : str
+        What was found.
+    known : list of str
+        All valid words, listed if none is alike (ratio of `difflib` below 0.55).
+    """
     return closest(word, known, 0.55) or f"known are {', '.join(known)}"
 
 
 def closest(word: str, known: list[str], alike: float) -> str:
-    """Return the question after the word that is most alike; empty without one."""
+    """Return the question after the word that is most alike; empty without one.
+
+    Parameters
+    ----------
+    word : str
+        What was found; its first 100 characters are compared.
+    known : list of str
+        All valid words.
+    alike : float
+        Least ratio of `difflib`, 0 to 1.
+    """
     close = difflib.get_close_matches(word[:100], known, n=1, cutoff=alike)
     return "".join(f"did you mean {one}?" for one in close)
 
@@ -37,5 +55,13 @@ def shown(value: object) -> str:
 
 
 def short(text: str, length: int = 40) -> str:
-    """Return a text of at most ``length`` characters."""
+    """Return a text for a message, its end replaced by dots if it is long.
+
+    Parameters
+    ----------
+    text : str
+        Of any length.
+    length : int
+        Most characters, the dots included; at least three.
+    """
     return text if len(text) <= length else f"{text[: length - 3]}..."

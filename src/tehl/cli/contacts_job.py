@@ -9,7 +9,7 @@ import typer
 from tehl.base.atomic import check_writable
 from tehl.base.errors import InputError
 from tehl.cli.lines import show
-from tehl.cli.progress import SHOWN, duration, study_progress
+from tehl.cli.progress import MOST_NAMED_CASES, duration, study_progress
 from tehl.cli.study_job import number_of_workers
 from tehl.studies.answers import check_output, write_answers
 from tehl.studies.contacts import Contacts, read_contacts
@@ -36,10 +36,10 @@ def run(  # noqa: PLR0913 (the arguments of the command)
     found = read_contacts(source, template)
     if not found.cases:
         raise InputError(f"{source}: no row can be solved; {found.wrong[0].message}")
-    for row in found.wrong[:SHOWN]:
+    for row in found.wrong[:MOST_NAMED_CASES]:
         show(f"tehl: {row.message}", err=True)
-    if len(found.wrong) > SHOWN:
-        show(f"tehl: and {len(found.wrong) - SHOWN} more wrong rows", err=True)
+    if len(found.wrong) > MOST_NAMED_CASES:
+        show(f"tehl: and {len(found.wrong) - MOST_NAMED_CASES} more wrong rows", err=True)
     folder = output.with_name(f"{output.name}.contacts")
     with locked(folder), closing(Store(folder)) as store:
         try:
@@ -90,6 +90,6 @@ def _show(found: Contacts, outcome: Outcome, output: Path, *, as_json: bool) -> 
         show(f"  {outcome.equal} further rows equal others, and are solved once")
     if found.wrong:
         show(f"  {len(found.wrong)} of {len(found.rows)} rows are wrong, see the table")
-    for case, row in outcome.failed[:SHOWN]:
+    for case, row in outcome.failed[:MOST_NAMED_CASES]:
         show(f"  failed: {case.name}: {row.message or row.cause}")
     typer.echo(f"written: {output}", err=True)

@@ -26,9 +26,9 @@ _WrongCommandLine: Any = typer.BadParameter.__mro__[2]
 """Base of the errors of a wrong command line; typer does not export it."""
 EXPECTED = (_WrongCommandLine, TehlError, MemoryError, OSError, ModuleNotFoundError)
 _SIGNALS = ("SIGTERM", "SIGHUP")
-AGAIN = 0.05
+RESEND_SECONDS = 0.05
 """Seconds after which a signal that a destructor has received is sent again."""
-_LONGEST = 300
+_LONGEST_MESSAGE = 300
 """Characters of a message about the command line."""
 
 
@@ -71,7 +71,7 @@ def _usage(error: Any) -> str:
         error.show()
         raise SystemExit(BAD_INPUT)
     command = error.ctx.command_path if getattr(error, "ctx", None) else "tehl"
-    short = message if len(message) <= _LONGEST else f"{message[: _LONGEST - 3]}..."
+    short = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 3]}..."
     return f"{short}; see {command} --help"
 
 
@@ -124,7 +124,7 @@ def ending() -> Iterator[None]:
 def _raise_again(received: list[int], hook: Callable[[Any], object], unraisable: Any) -> None:
     """Signal again if a destructor, in which Python ignores exceptions, has received a signal."""
     if received and isinstance(unraisable.exc_value, SystemExit):
-        threading.Timer(AGAIN, os.kill, (os.getpid(), received[-1])).start()
+        threading.Timer(RESEND_SECONDS, os.kill, (os.getpid(), received[-1])).start()
     else:
         hook(unraisable)
 

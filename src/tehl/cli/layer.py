@@ -24,7 +24,7 @@ else:
 
 COLUMNS = ("time_s", "film_m", "film_by_formula_m")
 """Columns of the table: time, and film with F by the solved pressure and by the closed form."""
-SEVERE = 0.35
+LEAST_FILM_RATIO = 0.35
 """Film over the flooded one up to which the law of side flow holds."""
 Rows = list[tuple[float, float, float]]
 
@@ -114,10 +114,11 @@ def _text(title: str, decay: "LayerDecay", rows: Rows, severe: float | None) -> 
     ]
     if decay.replenishment:
         lines.append(f"  limit            {1e9 * decay.limit:.4g} nm, where as much oil comes back")
-    if severe is not None and severe > SEVERE:
+    if severe is not None and severe > LEAST_FILM_RATIO:
         lines.append(
             f"  note             the film begins at {severe:.2g} of the flooded one: the law is "
-            f"for severe starvation, below {SEVERE:g}; until then it decays somewhat faster"
+            f"for severe starvation, below {LEAST_FILM_RATIO:g}; until then it decays "
+            "somewhat faster"
         )
     lines.append("  time [s]         film [nm]   by the closed form [nm]")
     lines += [f"  {at:<16.5g} {1e9 * film:<11.4g} {1e9 * other:.4g}" for at, film, other in rows]

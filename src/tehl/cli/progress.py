@@ -54,17 +54,17 @@ _STEP: Columns = {
     "p max [GPa]": (11, "{pressure:.4f}"),
     "left [s]": (8, "{left}"),
 }
-_LINES, _ROWS = 20, 10
+_PLAIN_LINES, _LIVE_STEPS = 20, 10
 """Of a transient run: plain lines, and steps in the live view."""
-_BESIDE = 47
+_BAR_TEXT_WIDTH = 47
 """Characters beside a bar of 20 and the time left, in a line of 80."""
 _SILENT = 2.0
 """Seconds after which a live view that does not change shows the time."""
-_EVERY = 10.0
+_LINE_SECONDS = 10.0
 """Seconds between two plain lines of a study."""
-_ENOUGH = 3
+_LEAST_FINISHED = 3
 """Finished cases that show how long the others take."""
-SHOWN = 20
+MOST_NAMED_CASES = 20
 """Failed cases that are named."""
 
 
@@ -132,7 +132,7 @@ def compile_kernels(*, coupled: bool) -> None:
         typer.echo("compiling the kernels once, which takes 10 to 60 s", err=True)
         warmup.warm_up(coupled=coupled)
         return
-    beside = Column(no_wrap=True, overflow="ellipsis", max_width=_BESIDE)
+    beside = Column(no_wrap=True, overflow="ellipsis", max_width=_BAR_TEXT_WIDTH)
     words = TextColumn("{task.description}", table_column=beside)
     columns = (BarColumn(bar_width=20), _CountDown(), words)
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
@@ -240,7 +240,7 @@ class _StepProgress(_Shown):
     def __init__(self, live: _Ticking | None, units: "Scales") -> None:
         super().__init__(live, _STEP)
         self._units = units
-        self._rows: deque[list[str]] = deque(maxlen=_ROWS)
+        self._rows: deque[list[str]] = deque(maxlen=_LIVE_STEPS)
         self._first: tuple[int, float] | None = None
         self._part: int | None = None
         self._steady = False
@@ -265,7 +265,7 @@ class _StepProgress(_Shown):
             pressure=report.pressure_max * self._units.hertz_pressure * 1e-9,
             left="" if left is None else f"{left:.0f}",
         )
-        part = report.step * _LINES // report.steps
+        part = report.step * _PLAIN_LINES // report.steps
         if self._view is not None:
             self._rows.append(cells)
             self._show(report)
@@ -336,11 +336,11 @@ class StudyProgress(_Shown):
         self.done += 1
         self._worked += self._expected.get(case.key, self._usual)
         self.failed += not row.converged
-        if not row.converged and self.failed <= SHOWN:
+        if not row.converged and self.failed <= MOST_NAMED_CASES:
             cause = (row.cause or row.status).replace("_", " ")
             self.message(f"failed: {case.name}: {cause}")
         now = self._clock()
-        if self._task is None and (now - self._last >= _EVERY or not self.open):
+        if self._task is None and (now - self._last >= _LINE_SECONDS or not self.open):
             self._last = now
             self.message(self.counts)
         self._show()
@@ -362,7 +362,7 @@ class StudyProgress(_Shown):
         if self.done:
             rate = self.done / max(self._clock() - self._start, 1e-9)
             text += f", {rate:.3g} per second"
-        if self.done >= _ENOUGH:
+        if self.done >= _LEAST_FINISHED:
             pace = (self._clock() - self._start) / self._worked
             text += f", {duration(pace * max(self._work - self._worked, 0.0))} left"
         return f"{text}, {self.failed} failed" if self.failed else text

@@ -20,7 +20,7 @@ import typer
 from tehl.base.atomic import check_place, check_writable, shortened
 from tehl.base.errors import InputError
 from tehl.cli.lines import show
-from tehl.cli.progress import SHOWN, duration, study_progress
+from tehl.cli.progress import MOST_NAMED_CASES, duration, study_progress
 from tehl.result.solution import settings_text
 from tehl.studies.case import Row
 from tehl.studies.file import read_study
@@ -305,14 +305,14 @@ def _show_outcome(outcome: Outcome, written: Written) -> None:
             f"  {outcome.uncertain} of them with an uncertain minimum film: see the messages in "
             "the table"
         )
-    for case, row in outcome.failed[:SHOWN]:
+    for case, row in outcome.failed[:MOST_NAMED_CASES]:
         show(f"  failed: {case.name}: {row.message or row.cause}")
-    if len(outcome.failed) > SHOWN:
-        show(f"  and {len(outcome.failed) - SHOWN} more, see the table")
-    for case, row in outcome.retried[:SHOWN]:
+    if len(outcome.failed) > MOST_NAMED_CASES:
+        show(f"  and {len(outcome.failed) - MOST_NAMED_CASES} more, see the table")
+    for case, row in outcome.retried[:MOST_NAMED_CASES]:
         show(f"  converged on retry: {case.name}: {settings_text(row.retry_settings)}")
     hints = Counter(str(row.hint) for _, row in outcome.failed if row.hint)
-    for hint, count in hints.most_common(SHOWN):
+    for hint, count in hints.most_common(MOST_NAMED_CASES):
         show(f"  hint: {hint}" if count == 1 else f"  hint for {count} of them: {hint}")
     for path in (*written["table"], *written["pictures"]):
         typer.echo(f"written: {path}", err=True)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _DOMAIN = 6.0
 """Length of the usual domain in half-widths."""
 _ROUGHNESS = ("Sq_m", "Sa_m", "Sz_m", "Ssk", "Sku", "Sdq")
-_LONGEST = 1e300
+_INFINITE_LENGTH = 1e300
 """Lengths beyond are infinite [m]."""
 _LEVELS = {
     "none": "nothing",
@@ -139,13 +139,17 @@ def _mesh_of_case(case: Path, points: int | None) -> "Mesh":
 
 def as_text(found: "Preview") -> str:
     """Return a preview in lines for people."""
-    return rendering.render("surface.txt", found=found, levels=_LEVELS, longest=_LONGEST).rstrip()
+    return rendering.render(
+        "surface.txt", found=found, levels=_LEVELS, longest=_INFINITE_LENGTH
+    ).rstrip()
 
 
 def as_summary(found: "Preview") -> dict[str, Any]:
     """Return the numbers of a preview, in SI, for programs."""
     surface, heights, numbers = found.surface, found.heights, found.statistics
-    lengths = [length if length < _LONGEST else None for length in numbers.correlation_lengths]
+    lengths = [
+        length if length < _INFINITE_LENGTH else None for length in numbers.correlation_lengths
+    ]
     return {
         "file": found.file,
         "kind": found.raw.kind,

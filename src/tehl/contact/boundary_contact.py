@@ -14,9 +14,9 @@ from tehl.base.units import BoundaryFilm, Quantity
 
 Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative")]
 
-THINNEST, THICKEST = 1e-12, 1e-6
+THINNEST_BOUNDARY_FILM, THICKEST_BOUNDARY_FILM = 1e-12, 1e-6
 """Limits of the boundary film [m]: beyond both the unit is wrong."""
-MARGIN = 0.05
+TOUCHING_MARGIN = 0.05
 """Film above the boundary film, over it, up to which surfaces count as touching."""
 
 
@@ -34,5 +34,5 @@ class ContactFilm(Table):
     """Friction coefficient where they touch [-]."""
 
     def meets(self, film: Array) -> BoolArray:
-        """Return where a film [m] exceeds the boundary film by at most `MARGIN`."""
-        return film <= (1.0 + MARGIN) * self.thickness
+        """Return where a film [m] exceeds the boundary film by at most `TOUCHING_MARGIN`."""
+        return film <= (1.0 + TOUCHING_MARGIN) * self.thickness

@@ -67,6 +67,13 @@ def source_form(stated: SourceForm, peclet: float) -> Literal["line", "full"]:
     """Return the moving source of a surface, as stated or for its Peclet number.
 
     ``peclet`` is u_s a_x / (2 diffusivity) of the solid [-], negative if it moves against x.
+
+    Parameters
+    ----------
+    stated : {"auto", "line", "full"}
+        ``thermal.sources`` of the case.
+    peclet : float
+        u_s a_x / (2 diffusivity) of the solid [-], negative if it moves against x.
     """
     if stated != "auto":
         return stated

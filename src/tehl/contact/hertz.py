@@ -58,7 +58,18 @@ def elliptic_b_d(parameter: float) -> tuple[float, float]:
 
 
 def ellipticity(radius_x: float, radius_y: float) -> float:
-    """Return kappa = a_y / a_x of a contact with reduced radii ``radius_x``, ``radius_y`` [m]."""
+    """Return kappa = a_y / a_x of a contact with reduced radii ``radius_x``, ``radius_y`` [m].
+
+    Parameters
+    ----------
+    radius_x, radius_y : float
+        Reduced radii along and across the entrainment [m], positive and finite.
+
+    Returns
+    -------
+    float
+        Above one if the contact is wider across the entrainment, ``radius_y > radius_x``.
+    """
     if radius_y < radius_x:
         return 1.0 / _axis_ratio(radius_x / radius_y)
     return _axis_ratio(radius_y / radius_x)

@@ -45,7 +45,13 @@ class Solid(Table):
 
 
 def reduced_modulus(first: Solid, second: Solid) -> float:
-    """Return E' with ``2/E' = (1-nu_1^2)/E_1 + (1-nu_2^2)/E_2`` [Pa]; twice the contact modulus."""
+    """Return E' with ``2/E' = (1-nu_1^2)/E_1 + (1-nu_2^2)/E_2`` [Pa]; twice the contact modulus.
+
+    Parameters
+    ----------
+    first, second : Solid
+        Materials of both surfaces; the order has no effect.
+    """
     return 2.0 / (first.compliance + second.compliance)
 
 

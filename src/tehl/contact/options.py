@@ -20,7 +20,7 @@ def _not_a_boolean(value: object) -> object:
 
 
 def _memory(value: object) -> object:
-    """Reject text and numbers that are no amount of memory."""
+    """Reject what is not an amount of memory."""
     unlimited = isinstance(value, float) and not math.isfinite(value)
     known = not isinstance(value, str) or re.fullmatch(r"\s*\d*\.?\d+\s*[kMGT]i?B\s*", value)
     if isinstance(value, bool) or unlimited or not known:
@@ -42,7 +42,7 @@ LARGEST_COARSEST = 64
 """Most intervals along one direction of the coarsest grid, whose Newton matrix is dense."""
 LARGEST_ERROR = 0.5
 """Largest error that can be asked for."""
-FARTHEST = 1e3
+LARGEST_DOMAIN_EDGE = 1e3
 """Hertz half-widths within which a domain must stay."""
 
 
@@ -69,8 +69,8 @@ def _fault_of_edges(low: float, high: float) -> str:
         return f"must begin with its lower edge: [{high:g}, {low:g}] (unit: Hertz half-widths)"
     if not (low < -1.0 and high > 1.0):
         return "cuts the contact; must reach beyond -1 and 1 (unit: Hertz half-widths)"
-    if not max(-low, high) < FARTHEST:
-        return f"too large; must stay within {FARTHEST:g} Hertz half-widths"
+    if not max(-low, high) < LARGEST_DOMAIN_EDGE:
+        return f"too large; must stay within {LARGEST_DOMAIN_EDGE:g} Hertz half-widths"
     return ""
 
 
@@ -155,7 +155,13 @@ class Options(Table):
         return usual if self.error is None else self.error
 
     def on_points(self, nx: int, ny: int) -> "Options":
-        """Return these options with the nodes ``nx``, ``ny`` stated."""
+        """Return these options with the nodes ``nx``, ``ny`` stated.
+
+        Parameters
+        ----------
+        nx, ny : int
+            Nodes along and across the entrainment, those of the whole domain.
+        """
         return self.model_copy(update={"points": (nx, ny)})
 
     @property
@@ -210,14 +216,32 @@ def coarsenable(nodes: int) -> tuple[int, int]:
 
 
 def can_be_halved(options: Options, times: int) -> bool:
-    """Whether the grid, its intervals halved ``times`` times, still has a coarser grid."""
+    """Whether the grid, its intervals halved ``times`` times, still has a coarser grid.
+
+    Parameters
+    ----------
+    options : Options
+        With ``points`` stated: "auto" has no shape.
+    times : int
+        Halvings of the intervals along x and y.
+    """
     return min(coarsenings(nodes) for nodes in options.shape) > times
 
 
 def check_certifiable(options: Options, *, transient: bool = False) -> None:
     """Check that the grid can be halved for error bars: twice, in a transient run once.
 
-    Raises InputError when it has too few nodes.
+    Parameters
+    ----------
+    options : Options
+        With the nodes of the finest grid stated.
+    transient : bool
+        Whether the run is transient, and 65 nodes per direction suffice instead of 129.
+
+    Raises
+    ------
+    InputError
+        If the grid has too few nodes.
     """
     halvings, what, least = (1, " a transient run", 65) if transient else (2, "", 129)
     if not can_be_halved(options, halvings):

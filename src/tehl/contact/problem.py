@@ -19,7 +19,7 @@ from tehl.base.units import (
     SolidHeatCapacity,
     quantity,
 )
-from tehl.contact.boundary_contact import THICKEST, THINNEST
+from tehl.contact.boundary_contact import THICKEST_BOUNDARY_FILM, THINNEST_BOUNDARY_FILM
 from tehl.contact.point_contact import Contact, PointContact, Surface
 from tehl.contact.shape import reduced_radius
 from tehl.contact.summits import GreenwoodTripp
@@ -32,7 +32,7 @@ THERMAL_PROPERTIES = {
     "heat_capacity": quantity(SolidHeatCapacity),
     "conductivity": quantity(SolidConductivity),
 }
-COLDEST, HOTTEST = 200.0, 800.0
+COLDEST_TEMPERATURE, HOTTEST_TEMPERATURE = 200.0, 800.0
 """Limits of the temperature of an oil or a solid [K]."""
 LARGEST_RATIO = 1e3
 """Largest ratio of the reduced radii, either way: beyond it the contact is a line contact."""
@@ -57,7 +57,7 @@ def check(problem: PointContact) -> None:
 
     Raises ValueError with one sentence on the first fault.
     """
-    check_classes(problem, "")
+    _check_classes(problem, "")
     check_radii(problem)
     check_temperatures(problem)
     check_heat(problem)
@@ -79,7 +79,7 @@ def check(problem: PointContact) -> None:
     check_size(problem)
 
 
-def check_classes(table: BaseModel, path: str) -> None:
+def _check_classes(table: BaseModel, path: str) -> None:
     """Check that laws and surfaces are those of this package, which a file can store."""
     for name in type(table).model_fields:
         value, key = getattr(table, name), f"{path}{name}"
@@ -92,7 +92,7 @@ def check_classes(table: BaseModel, path: str) -> None:
                 f"would store its parent {kind.__base__.__name__ if kind.__base__ else ''}; use a "
                 "law of tehl.lubricant or a surface of tehl.roughness"
             )
-        check_classes(value, f"{key}.")
+        _check_classes(value, f"{key}.")
 
 
 def check_size(problem: PointContact) -> None:
@@ -124,10 +124,11 @@ def check_temperatures(problem: PointContact) -> None:
         "surface_2.temperature": problem.surface_2.temperature,
     }
     for key, value in stated.items():
-        if value is not None and not COLDEST <= value <= HOTTEST:
+        if value is not None and not COLDEST_TEMPERATURE <= value <= HOTTEST_TEMPERATURE:
             raise ValueError(
-                f"{key} = {value:g} K is not a temperature of a lubricated contact ({COLDEST:g} "
-                f'to {HOTTEST:g} K): a bare number is in kelvin, write "40 degC"'
+                f"{key} = {value:g} K is not a temperature of a lubricated contact "
+                f"({COLDEST_TEMPERATURE:g} to {HOTTEST_TEMPERATURE:g} K): "
+                'a bare number is in kelvin, write "40 degC"'
             )
     if oil.temperature is not None and heated is not None and oil.temperature != heated:
         raise ValueError(
@@ -215,8 +216,8 @@ def check_supply(problem: PointContact) -> None:
     supply, cavitation = problem.supply, problem.cavitation
     if supply is not None and cavitation is not None and cavitation.model == "reynolds":
         raise ValueError(
-            'cavitation.model = "reynolds" does not know how much oil there is, which [supply] '
-            'states: take "conserving", or leave out [cavitation]'
+            'cavitation.model = "reynolds" does not conserve oil, which [supply] needs: '
+            'take "conserving", or leave out [cavitation]'
         )
     if problem.has_passes and problem.transient is not None:
         raise ValueError(
@@ -244,10 +245,10 @@ def check_contact_film(problem: PointContact) -> None:
     film = problem.contact_film
     if film is None:
         return
-    if not THINNEST <= film.thickness <= THICKEST:
+    if not THINNEST_BOUNDARY_FILM <= film.thickness <= THICKEST_BOUNDARY_FILM:
         raise ValueError(
             f"contact_film.thickness = {film.thickness:g} m is not a boundary film: it must be "
-            f'between {THINNEST:g} and {THICKEST:g} m, such as "5 nm"'
+            f'between {THINNEST_BOUNDARY_FILM:g} and {THICKEST_BOUNDARY_FILM:g} m, such as "5 nm"'
         )
     excluded = {
         "asperities": problem.asperities is not None,

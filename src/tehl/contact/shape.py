@@ -16,9 +16,17 @@ class Radii:
 
 
 def reduced_radius(first: float, second: float) -> float:
-    """Return R with ``1/R = 1/R_1 + 1/R_2`` [m]; infinite radii are flat, negative ones hollow.
+    """Return R with ``1/R = 1/R_1 + 1/R_2`` [m].
 
-    Raises ValueError if the surfaces do not curve apart, so that they have no point contact.
+    Parameters
+    ----------
+    first, second : float
+        Radii of both surfaces in one plane [m]; infinite is flat, negative is hollow.
+
+    Raises
+    ------
+    ValueError
+        If the surfaces do not curve apart, so that they have no point contact.
     """
     curvature = 1.0 / first + 1.0 / second
     if curvature == 0.0 and math.isinf(first):
@@ -31,7 +39,18 @@ def reduced_radius(first: float, second: float) -> float:
 
 
 def reduced_radii(first: Radii, second: Radii) -> Radii:
-    """Return the reduced radii of two surfaces; see :func:`reduced_radius` for what raises."""
+    """Return the reduced radii of two surfaces.
+
+    Parameters
+    ----------
+    first, second : Radii
+        Radii along x and y of each surface [m], with the signs of :func:`reduced_radius`.
+
+    Raises
+    ------
+    ValueError
+        If the surfaces do not curve apart along x or along y.
+    """
     return Radii(x=reduced_radius(first.x, second.x), y=reduced_radius(first.y, second.y))
 
 

@@ -44,11 +44,11 @@ if TYPE_CHECKING:
 SummitDensity = Annotated[float, Quantity("a number per area", "1/m^2", '"1e10 1/m^2"')]
 Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative")]
 
-APART, LOG_STEP = 8.0, 0.02
+LARGEST_SEPARATION, LOG_STEP = 8.0, 0.02
 """Separation over sigma beyond which no area is in contact, and step of a spline up to there."""
-FARTHEST = 35.0
+LARGEST_GAP_OVER_SIGMA = 35.0
 """Gap over sigma from which no asperity touches."""
-DEEPEST = 30.0
+LARGEST_DEPTH_OVER_SIGMA = 30.0
 """Depth over sigma from which F_n is its power of the depth."""
 DENSE, STEEP = (1e-5, 5.0), (1e-6, 0.5)
 """Limits of eta beta sigma and of sigma over beta: surfaces have 0.03 to 0.06, and 1e-4 to 1e-2."""
@@ -123,15 +123,35 @@ class GreenwoodTripp(_Summits):
         return shear_flow(gap) / mean_gap(gap)
 
     def unit(self, sigma: float, modulus: float) -> float:
-        """Return the pressure over F_(5/2) for sigma [m] and E' [Pa]: in Pa."""
+        """Return the pressure over F_(5/2) for sigma [m] and E' [Pa]: in Pa.
+
+        Parameters
+        ----------
+        sigma : float
+            Rms height of both surfaces together [m].
+        modulus : float
+            E' [Pa], twice the contact modulus.
+        """
         steep = math.sqrt(sigma / self.summit_radius)
         factor = 16.0 * math.sqrt(2.0) * math.pi / 15.0 * self.load_factor(sigma) ** 2
         return factor * steep * 0.5 * modulus
 
     def spots(self, gap: "Array", sigma: float) -> "tuple[Array, Array]":
-        """Return the part of the area in which asperities touch [-], and their spots per area.
+        """Return the part of the area in which asperities touch, and their spots per area.
 
-        At most one, and 4 pi eta^2 beta sigma F_1 [1/m^2].
+        Parameters
+        ----------
+        gap : Array
+            Separations of the mean planes over sigma [-].
+        sigma : float
+            Rms height of both surfaces together [m].
+
+        Returns
+        -------
+        part : Array
+            Real over nominal area [-], at most one, in the shape of ``gap``.
+        spots : Array
+            4 pi eta^2 beta sigma F_1 [1/m^2].
         """
         factor, (number, part) = self.load_factor(sigma), _on_map(gap)
         part *= (math.pi * factor) ** 2
@@ -167,7 +187,15 @@ class SurfacePatch(_Summits):
         return _curves(self.map, self.map.stamp)
 
     def unit(self, sigma: float, modulus: float) -> float:
-        """Return E*, the unit of `load`, for E' [Pa]."""
+        """Return E*, the unit of `load`, for E' [Pa].
+
+        Parameters
+        ----------
+        sigma : float
+            Not used: the slopes of a patch do not depend on it.
+        modulus : float
+            E' [Pa], twice the contact modulus.
+        """
         del sigma
         return 0.5 * modulus
 
@@ -176,13 +204,35 @@ class SurfacePatch(_Summits):
         return self.curves.load(gap)
 
     def pressure(self, gap: "Array", sigma: float, modulus: float) -> "Array":
-        """Return the pressure that the asperities carry at gaps over Sq, for E' [Pa]."""
+        """Return the pressure that the asperities carry at gaps over Sq, for E' [Pa].
+
+        Parameters
+        ----------
+        gap : Array
+            Mean gaps over the Sq of the patch [-].
+        sigma : float
+            Not used: the curves of a patch are over its own Sq.
+        modulus : float
+            E' [Pa], twice the contact modulus.
+        """
         return self.unit(sigma, modulus) * self.load(gap)
 
     def spots(self, gap: "Array", sigma: float) -> "tuple[Array, Array]":
-        """Return the part of the area in which asperities touch [-], and their spots per area.
+        """Return the part of the area in which asperities touch, and their spots per area.
 
-        Spots [1/m^2] are connected pixels of the patch.
+        Parameters
+        ----------
+        gap : Array
+            Mean gaps over the Sq of the patch [-].
+        sigma : float
+            Not used: the curves of a patch are over its own Sq.
+
+        Returns
+        -------
+        part : Array
+            Touching over nominal area [-], in the shape of ``gap``.
+        spots : Array
+            Connected groups of touching pixels [1/m^2].
         """
         del sigma
         return self.curves.touching(gap), self.curves.spots(gap)
@@ -228,24 +278,32 @@ def gaussian_integral(n: float, gap: "Array") -> "Array":
 
     By Whittaker's parabolic cylinder function, ``Gamma(n + 1) exp(-u^2/4) D_(-n-1)(u)`` over
     ``sqrt(2 pi)``.
+
+    Parameters
+    ----------
+    n : float
+        Power of the overlap: 1 for the number of spots, 2 for their area, 5/2 for the load.
+    gap : Array
+        Separations of the mean planes over sigma [-], of any shape and sign.
     """
     from scipy.special import pbdv  # noqa: PLC0415 (0.1 s, for cases with asperities only)
 
-    near = np.clip(gap, -DEEPEST, FARTHEST)
+    near = np.clip(gap, -LARGEST_DEPTH_OVER_SIGMA, LARGEST_GAP_OVER_SIGMA)
     values, _ = pbdv(-n - 1.0, near)
     found = math.gamma(n + 1.0) / math.sqrt(2.0 * math.pi) * np.exp(-0.25 * near**2) * values
-    found *= (np.maximum(-gap, DEEPEST) / DEEPEST) ** n  # beyond, as the power that it tends to
-    return np.where(gap < FARTHEST, found, 0.0)
+    # beyond, as the power that it tends to
+    found *= (np.maximum(-gap, LARGEST_DEPTH_OVER_SIGMA) / LARGEST_DEPTH_OVER_SIGMA) ** n
+    return np.where(gap < LARGEST_GAP_OVER_SIGMA, found, 0.0)
 
 
 def _on_map(gap: "Array") -> "Array":
-    """Return F_1 and F_2 to 1e-9, zero from `APART` on, (2, *shape of ``gap``).
+    """Return F_1 and F_2 to 1e-9, zero from `LARGEST_SEPARATION` on, (2, *shape of ``gap``).
 
     On all nodes of a grid the functions themselves take long.
     """
-    near = gap < APART
+    near = gap < LARGEST_SEPARATION
     found = np.zeros((2, *gap.shape))
-    values = np.exp(_logarithms()(np.maximum(gap[near], -DEEPEST)))
+    values = np.exp(_logarithms()(np.maximum(gap[near], -LARGEST_DEPTH_OVER_SIGMA)))
     for each, value in zip(found, values, strict=True):
         each[near] = value
     return found
@@ -256,7 +314,7 @@ def _logarithms() -> "CubicSpline":
     """Return ln F_1 and ln F_2 as a spline of the separation."""
     from scipy.interpolate import CubicSpline  # noqa: PLC0415
 
-    at = np.arange(-DEEPEST, APART + LOG_STEP, LOG_STEP)
+    at = np.arange(-LARGEST_DEPTH_OVER_SIGMA, LARGEST_SEPARATION + LOG_STEP, LOG_STEP)
     return CubicSpline(at, np.log([gaussian_integral(n, at) for n in (1.0, 2.0)]), axis=1)
 
 

@@ -10,13 +10,13 @@ from pydantic import Field, StrictBool, ValidationInfo, field_validator, model_v
 from tehl.base.table import Table
 from tehl.base.units import Height, Length, Place, Quantity, Ratio, quantity
 
-THINNEST, THICKEST = 1e-9, 1e-2
+THINNEST_LAYER, THICKEST_LAYER = 1e-9, 1e-2
 """Limits of the thickest layer of a supply [m]."""
-LARGEST_FILE = 1_000_000
+LARGEST_PROFILE = 1_000_000
 """Characters of a profile that are read."""
 
 MOST_PASSES = 100_000
-LEAST_RATIO, LARGEST_RATIO = 1e-3, 1e3
+LEAST_SUPPLY_RATIO, LARGEST_SUPPLY_RATIO = 1e-3, 1e3
 """Least and largest supply over what the flooded contact passes on."""
 OilRatio = Annotated[float, Quantity("a plain number", "-", "0.5")]
 
@@ -39,7 +39,7 @@ class Supply(Table):
     ] = None
     """Places y [m] and layers there [m], linear between; or the name of a CSV file with both in two
     columns, in metres or with their units in its header: ``y [mm], layer [um]``."""
-    ratio: Annotated[OilRatio, Field(ge=LEAST_RATIO, le=LARGEST_RATIO)] | None = None
+    ratio: Annotated[OilRatio, Field(ge=LEAST_SUPPLY_RATIO, le=LARGEST_SUPPLY_RATIO)] | None = None
     """Oil that enters, over what the fully flooded contact passes on at its centre [-]."""
     passes: Annotated[int, Field(ge=2, le=MOST_PASSES)] | None = None
     """Times that the same surfaces pass the contact: the oil that leaves it comes back."""
@@ -103,17 +103,17 @@ class Supply(Table):
 
 def _check_layer(key: str, layer: float) -> None:
     """Raise ValueError if the thickness of a layer is not that of oil between surfaces."""
-    if not THINNEST <= layer <= THICKEST:
+    if not THINNEST_LAYER <= layer <= THICKEST_LAYER:
         raise ValueError(
-            f"{key} = {layer:g} m must be between {1e9 * THINNEST:g} nm, the size of a molecule, "
-            f"and {1e3 * THICKEST:g} mm"
+            f"{key} = {layer:g} m must be between {1e9 * THINNEST_LAYER:g} nm, the size "
+            f"of a molecule, and {1e3 * THICKEST_LAYER:g} mm"
         )
 
 
 def _read_profile(path: Path) -> list[tuple[float, float]]:
     """Return the places and layers of a CSV file [m]; raise ValueError with one sentence."""
     try:
-        text = path.read_text(encoding="utf-8-sig")[:LARGEST_FILE]
+        text = path.read_text(encoding="utf-8-sig")[:LARGEST_PROFILE]
     except (OSError, UnicodeDecodeError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "not a text file"
         raise ValueError(f"cannot be read ({reason})") from None

@@ -8,15 +8,15 @@ from tehl.estimate.grid import Grid, can_mirror, halved_grids
 from tehl.estimate.scaling import ScaledProblem
 from tehl.roughness.model import TileModel
 
-START, SAMPLES = 0.011, 0.14
+START_TIME, SURFACE_TIME = 0.011, 0.14
 """CPU time of any solve, and of random and measured surfaces, beside the cycles [s]."""
-EACH_CYCLE, COARSEST = 0.6e-3, 2.2e-11
+EACH_CYCLE, COARSEST_SYSTEM_TIME = 0.6e-3, 2.2e-11
 """CPU time of a cycle beside its nodes, and of its dense coarsest system per cubed node [s]."""
 FIRST_STEPS = 6
 """Newton steps on the coarsest grid before the first cycle."""
 PER_NODE, THINNING, HEATED = 0.24e-6, 0.35e-6, 0.76e-6
 """CPU time of a cycle per node of its finest grid [s], and what shear thinning and heat add."""
-TOUCHING, TOUCHING_CYCLE, TOUCHING_STEPS = 14e-6, 1.1e-6, 15
+TOUCHING, TOUCHING_CYCLE, EXPECTED_TOUCHING_STEPS = 14e-6, 1.1e-6, 15
 """CPU time of a Newton step per node where surfaces may touch [s], that of a cycle, and their
 number on each grid: 26 solves by Newton's method on 129 and 257 nodes took 1.3 to 22 s, half to 1.3
 times the estimate. Rough surfaces take cycles first; if they fail, ten times as long."""
@@ -24,17 +24,17 @@ FIRST_CYCLES, CYCLES, ROUGH_CYCLES = 4, 2, 8
 """Cycles on the first grid, on each finer one, and on the one where the heights are raised."""
 STARTING = 0.4
 """Cost of the start of a grid in cycles."""
-WAVE_NODES = 8.0
+NODES_PER_RESOLVED_WAVE = 8.0
 """Nodes on the shortest wave from which a grid has the heights."""
 SURPLUS = 1.5
 """Factor for the one contact in eight that takes a finer grid than planned, or a fallback, and for
 cores that other programs use too: 1.2 on a quiet machine, 1.9 with both of its cores busy."""
-FINER, THICK, VISCOUS = 1.6, 100.0, 5.5
+FINER_GRID_FACTOR, FINER_GRID_LARGEST_M, FINER_GRID_LEAST_L = 1.6, 100.0, 5.5
 """Factor where half of the thinning and heated contacts take a finer grid, and the largest M and
 least L where they do."""
-SLENDER, WIDE = 0.7, 4.0
+SLENDER_RATIO_OF_TIME, WIDE_RATIO_OF_TIME = 0.7, 4.0
 """a_y/a_x below and above which a contact takes longer."""
-HIGH, HIGHER, HEAVY = 3.0, 10.0, 2000.0
+HIGH_TIME_FACTOR, HIGHER_TIME_FACTOR, HEAVY_LOAD = 3.0, 10.0, 2000.0
 """CPU time that eight to nine of ten solves stay below, over the one to expect; that of heated,
 thinning, starved, slender and wide contacts and of those with a Moes load above the last number."""
 
@@ -44,16 +44,23 @@ def seconds_range(scaled: ScaledProblem, seconds: float) -> tuple[float, float]:
 
     Against 33 contacts of bearings, gears and cams the ratio was 0.5 to 7.2 where the error was
     reached.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Heat, thinning, starvation, high loads and slender or wide ellipses widen the range.
+    seconds : float
+        Expected CPU time of the solve [s].
     """
     problem, groups = scaled.problem, scaled.entering
     is_hard = (
         problem.is_coupled
         or problem.supply is not None
         or problem.contact_film is not None
-        or groups.M > HEAVY
-        or not SLENDER <= groups.ellipticity <= WIDE
+        or groups.M > HEAVY_LOAD
+        or not SLENDER_RATIO_OF_TIME <= groups.ellipticity <= WIDE_RATIO_OF_TIME
     )
-    return 0.5 * seconds, (HIGHER if is_hard else HIGH) * seconds
+    return 0.5 * seconds, (HIGHER_TIME_FACTOR if is_hard else HIGH_TIME_FACTOR) * seconds
 
 
 def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
@@ -62,34 +69,54 @@ def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
     The constants are a fit to 200 random contacts with M = 2 to 2000 and L = 0.5 to 20
     (``python -m benchmarks.coverage``). Of others eight to nine of ten take half to twice as
     long, of heated ones half to three of four: fallbacks, further grids and busy cores take longer.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Its physics decide the cost of a node and a cycle.
+    options : Options
+        With ``points = "auto"`` further grids are included.
     """
     (coarsest, _), *finer = expected_cycles(scaled, options)
-    newton, each = COARSEST * _nodes(coarsest) ** 3, _seconds_per_node(scaled.problem)
+    newton, each = COARSEST_SYSTEM_TIME * _nodes(coarsest) ** 3, _seconds_per_node(scaled.problem)
     work = sum(
         cycles * (EACH_CYCLE + newton) + (cycles + STARTING) * each * _nodes(grid)
         for grid, cycles in finer
     )
     work *= _surplus(scaled) if options.points == "auto" else 1.0
-    return START + SAMPLES * _sampled(scaled.problem) + FIRST_STEPS * newton + work
+    return START_TIME + SURFACE_TIME * _sampled(scaled.problem) + FIRST_STEPS * newton + work
 
 
 def expected_cycles(scaled: ScaledProblem, options: Options) -> list[tuple[Grid, int]]:
-    """Return the grids to expect, coarsest first, each with its number of cycles."""
+    """Return the grids to expect, coarsest first, each with its number of cycles.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Rough and touching surfaces take more cycles.
+    options : Options
+        With ``points = "auto"`` the grid is the one on which the error is expected.
+
+    Returns
+    -------
+    list of (Grid, int)
+        The coarsest grid takes Newton steps only, so zero cycles.
+    """
     coarsest, *grids = _grids(scaled, planned(scaled, options))
     cycles = [FIRST_CYCLES] + [CYCLES] * (len(grids) - 1)
     if scaled.problem.is_rough:
         first = next((k for k, grid in enumerate(grids[:-1]) if _has_heights(scaled, grid)), -1)
         cycles[first] = ROUGH_CYCLES
     if scaled.problem.contact_film is not None:
-        cycles = [TOUCHING_STEPS] * len(grids)
+        cycles = [EXPECTED_TOUCHING_STEPS] * len(grids)
     return [(coarsest, 0), *zip(grids, cycles, strict=True)]
 
 
 def _surplus(scaled: ScaledProblem) -> float:
     """Return the factor for grids finer than planned, and for fallbacks."""
     problem, groups = scaled.problem, scaled.entering
-    thick = groups.M < THICK and groups.L > VISCOUS
-    return FINER if problem.is_coupled and thick and not problem.is_rough else SURPLUS
+    thick = groups.M < FINER_GRID_LARGEST_M and groups.L > FINER_GRID_LEAST_L
+    return FINER_GRID_FACTOR if problem.is_coupled and thick and not problem.is_rough else SURPLUS
 
 
 def _sampled(problem: ContactProblem) -> int:
@@ -116,7 +143,7 @@ def _has_heights(scaled: ScaledProblem, grid: Grid) -> bool:
     waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
     along = min(wave[0] for wave in waves) / (grid.dx * scales.half_width_x)
     across = min(wave[1] for wave in waves) / (grid.dy * scales.half_width_y)
-    return min(along, across) >= WAVE_NODES
+    return min(along, across) >= NODES_PER_RESOLVED_WAVE
 
 
 def _seconds_per_node(problem: ContactProblem) -> float:

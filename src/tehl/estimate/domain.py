@@ -14,10 +14,10 @@ from tehl.estimate.summits import shared_load
 CAUTION = 2.0
 """Factor on the slope of the film formula by load, which is half of what wider domains show between
 M = 2 and 5."""
-NEAREST, NEAR = (2.0, 1.6), 0.15
+NEAREST, NEAR_EDGE_ERROR = (2.0, 1.6), 0.15
 """Distances of a stated inlet edge and of side edges below which the far field is not that of the
 gap, and error of the film per half-width less: 4 % measured at 1.2 from the sides (M = 76)."""
-WIDEST = 2.5
+LARGEST_DOMAIN_FACTOR = 2.5
 """Largest factor on the domain because of the temperature of the bodies."""
 ELASTIC = 0.1
 """Error by zero pressure on the edges over the square of the width of the gap over the distance of
@@ -30,27 +30,27 @@ WIDE_INLET = 0.25
 upstream."""
 OUTLET = 5.0 / 11.0
 """Outlet over inlet: X = 0 is a node of every grid of 16 intervals or more."""
-APART, AROUND = 4.5, 1.3
+SEPARATION_WITHOUT_CONTACT, EDGE_GAP_MARGIN = 4.5, 1.3
 """Separation over sigma from which asperities carry less than 1e-4 of what they do in touch, and
 margin on the gap at the edges."""
-LEAST_RATIO = 0.3
+LEAST_LAMBDA = 0.3
 """Film over sigma below which asperities make bars no smaller."""
 FAMILIES = tuple(2**k * n + 1 for k in range(2, 9) for n in (16, 20, 24, 28))
 FAVOURED = tuple(nodes for nodes in FAMILIES if nodes > 80 and (nodes - 1) % 7)
 """Those of a wedge of third order: their coarsest grids cost least."""
 """Nodes from which `expected_points` chooses; at least three grids."""
-BAR, BAR_COUPLED, MARGIN = 0.24, 1.16, 1.25
+BAR, BAR_COUPLED, EXPECTED_BAR_MARGIN = 0.24, 1.16, 1.25
 """Factors of `expected_bar`: of all contacts, of heated and thinning ones, and the margin with
 which four of five contacts reach the error on the expected grid."""
-THIRD = 0.06
-"""Factor of `third_order_bar`."""
+THIRD_ORDER_FACTOR = 0.06
+"""Factor of `_third_order_bar`."""
 EXTRAPOLATED, HIGHER = 0.35, (2.5, 1.5)
 """Error bar of an extrapolated film over that of the film without, where that is large; factor and
 power of that where it is small."""
 EXTRAPOLATED_DOMAIN = 2.0
 """Error for which the domain is chosen over the one to reach, of extrapolated films: the edges
 leave a seventh of it (0.3 % of 2 %), and the mesh less than without extrapolation."""
-SLENDER = 1.5
+SLENDER_RATIO_OF_NODES = 1.5
 """a_y/a_x from which half as many nodes along y leave the same error."""
 WAVE_NODES, ROUGH_NODES = 20.0, 1024
 """Nodes on the shortest wave of the surfaces, and most nodes for that reason."""
@@ -93,12 +93,19 @@ def far_field_error(groups: Groups, domain: Domain) -> float:
     """Estimate the relative error of the film on a domain with the far field on its edges.
 
     Measured for M = 1 to 500 and R_y/R_x = 0.5 to 5, rounded up.
+
+    Parameters
+    ----------
+    groups : Groups
+        Moes numbers and ellipticity of the contact.
+    domain : Domain
+        Edges in Hertz half-widths.
     """
     along, across = gap_widths(groups)
     inlet, side = -domain.x[0], min(-domain.y[0], domain.y[1])
     thick = 0.1 * ((along / inlet) ** 3 + (across / side) ** 3)
     wide = max(groups.ellipticity, 1.0) ** WIDE_INLET
-    near = NEAR * (max(NEAREST[0] - inlet, 0.0) + max(NEAREST[1] - side, 0.0))
+    near = NEAR_EDGE_ERROR * (max(NEAREST[0] - inlet, 0.0) + max(NEAREST[1] - side, 0.0))
     return thick + 0.04 * (wide / inlet) ** 3 + near
 
 
@@ -110,6 +117,13 @@ def domain_error(groups: Groups, domain: Domain) -> float:
     outside the domain is missing, and the film changes with the slope of its formula by load. Wider
     domains show 3 to 4 % at M = 5, 22 to 34 % at M = 3 and more below; this estimate is 1 to 10 and
     11 to 33 %. Elastic contacts (M > 10) lose less, by the square of the distance of the sides.
+
+    Parameters
+    ----------
+    groups : Groups
+        Moes numbers and radius ratio of the contact.
+    domain : Domain
+        Edges in Hertz half-widths.
     """
     stretch = math.sqrt(groups.radius_ratio) * groups.ellipticity
     side = stretch * min(-domain.y[0], domain.y[1])
@@ -156,7 +170,7 @@ def expected_bar(
     return float(factor * width**2 * loads / (film**0.59 * groups.ellipticity**1.05))
 
 
-def third_order_bar(groups: Groups, domain: Domain, nodes: float) -> float:
+def _third_order_bar(groups: Groups, domain: Domain, nodes: float) -> float:
     """Return the error bar of the film to expect with a wedge of third order.
 
     A fit to 60 contacts of bearings, gears and cams with M up to 50,000, within a factor of two in
@@ -170,7 +184,7 @@ def third_order_bar(groups: Groups, domain: Domain, nodes: float) -> float:
         Nodes along x.
     """
     width = (domain.x[1] - domain.x[0]) / (nodes - 1)
-    return THIRD * width**2 * groups.M / max(groups.ellipticity, 1.0) ** 0.6
+    return THIRD_ORDER_FACTOR * width**2 * groups.M / max(groups.ellipticity, 1.0) ** 0.6
 
 
 def expected_points(  # noqa: PLR0913 (one formula)
@@ -201,9 +215,9 @@ def expected_points(  # noqa: PLR0913 (one formula)
     extrapolate, order : bool, {1, 2, 3}
         Whether the two finest grids are combined, and the order of the wedge.
     """
-    left = max(error - far_field_error(groups, domain), 0.5 * error) / MARGIN
+    left = max(error - far_field_error(groups, domain), 0.5 * error) / EXPECTED_BAR_MARGIN
     if order > 2:
-        bars = ((nodes, third_order_bar(groups, domain, nodes)) for nodes in FAVOURED)
+        bars = ((nodes, _third_order_bar(groups, domain, nodes)) for nodes in FAVOURED)
         return next((nodes for nodes, bar in bars if nodes > least and bar <= left), FAVOURED[-1])
     bars = (
         (nodes, expected_bar(groups, domain, nodes, is_coupled=is_coupled, film=film))
@@ -228,6 +242,13 @@ def settled(problem: ContactProblem, options: Options) -> Options:
     """Return ``options`` that say whether the film of a contact is extrapolated.
 
     Waves of rough surfaces, nodes that touch and time steps do not show one order.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Smooth steady films without boundary contact are extrapolated if the grid is chosen too.
+    options : Options
+        Returned as they are if they state ``extrapolate``.
     """
     if options.extrapolate is not None:
         return options
@@ -240,6 +261,13 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     """Return ``options`` with the nodes on which the error to reach is expected.
 
     Options that state ``points`` are returned as they are.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Its expected film, waves and inlet temperature decide the nodes.
+    options : Options
+        With the error to reach; stated ``points`` are kept.
     """
     options = settled(scaled.problem, options)
     if options.points != "auto":
@@ -255,7 +283,7 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
         extrapolate=bool(options.extrapolate),
         order=options.order,
     )
-    is_slender = scaled.groups.ellipticity >= SLENDER and options.order > 2
+    is_slender = scaled.groups.ellipticity >= SLENDER_RATIO_OF_NODES and options.order > 2
     return options.on_points(nodes, (nodes - 1) // 2 + 1 if is_slender else nodes)
 
 
@@ -270,19 +298,35 @@ def film_to_resolve(scaled: ScaledProblem) -> float | None:
         return supplied_film(scaled) if is_starved(scaled) else None
     film, shared = expected_central_film(scaled.entering), shared_load(scaled)
     ratio = film * scaled.scales.film_thickness / scaled.problem.asperity_rms
-    left = (1.0 - shared.share) ** 1.23 * min(max(ratio, LEAST_RATIO), 1.0) ** 1.7
+    left = (1.0 - shared.share) ** 1.23 * min(max(ratio, LEAST_LAMBDA), 1.0) ** 1.7
     return film * max(shared.gap / film, 1.0) ** 2 / left
 
 
 def domain_of(scaled: ScaledProblem, options: Options) -> Domain:
-    """Return the domain of a solve: the stated or the chosen one."""
+    """Return the domain of a solve: the stated or the chosen one.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Contact for which a domain is chosen.
+    options : Options
+        ``options.domain`` is a `Domain`, or "auto" to choose one for the error to reach.
+    """
     if isinstance(options.domain, Domain):
         return options.domain
     return chosen_domain(scaled, error_of_domain(scaled, options))
 
 
 def error_of_domain(scaled: ScaledProblem, options: Options) -> float:
-    """Return the relative error of the film for which the domain is chosen [-]."""
+    """Return the relative error of the film for which the domain is chosen [-].
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Decides whether the film is extrapolated, see :func:`settled`.
+    options : Options
+        With the error to reach; an extrapolated film leaves only a part of it to the domain.
+    """
     options = settled(scaled.problem, options)
     return options.target * (EXTRAPOLATED_DOMAIN if options.extrapolate else 1.0)
 
@@ -292,6 +336,13 @@ def chosen_domain(scaled: ScaledProblem, error: float) -> Domain:
 
     That of a starved contact contains all of its film: the pressure on its edges is zero.
     Asperities that touch lie within it.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Contact with its supply, asperities and temperatures.
+    error : float
+        Relative error of the film due to the edges [-].
     """
     if scaled.problem.asperities is not None:
         return _around_asperities(scaled, _of_film(scaled, error))
@@ -299,9 +350,9 @@ def chosen_domain(scaled: ScaledProblem, error: float) -> Domain:
 
 
 def _around_asperities(scaled: ScaledProblem, domain: Domain) -> Domain:
-    """Return a domain on whose edges the asperities are `APART`."""
+    """Return a domain on whose edges the asperities are `SEPARATION_WITHOUT_CONTACT`."""
     groups, sigma = scaled.groups, scaled.problem.asperity_rms / scaled.scales.film_thickness
-    along = math.sqrt(1.0 + 2.0 * AROUND * APART * sigma)
+    along = math.sqrt(1.0 + 2.0 * EDGE_GAP_MARGIN * SEPARATION_WITHOUT_CONTACT * sigma)
     across = along / math.sqrt(groups.radius_ratio) / groups.ellipticity
     inlet = max(-domain.x[0], along)
     outlet, side = max(domain.x[1], OUTLET * inlet, along), max(domain.y[1], across)
@@ -317,7 +368,7 @@ def _of_film(scaled: ScaledProblem, error: float) -> Domain:
     excess = entry_error(scaled, domain) / (0.5 * error)
     if excess <= 1.0:
         return domain
-    factor = min(excess ** (1.0 / 3.0), WIDEST)
+    factor = min(excess ** (1.0 / 3.0), LARGEST_DOMAIN_FACTOR)
     (inlet, outlet), (south, north) = domain.x, domain.y
     x, y = (factor * inlet, factor * outlet), (factor * south, factor * north)
     return Domain.model_construct(x=x, y=y)

@@ -12,13 +12,13 @@ from tehl.roughness.model import Extent
 from tehl.roughness.superposition import OneRoughness, Sum
 from tehl.roughness.waves import HarmonicModel
 
-MOST_STEPS = 20_000
+MOST_TIME_STEPS = 20_000
 """Number of steps beyond which a stated duration is considered a mistake."""
-BEYOND = 1.5
+PASSED_DISTANCE = 1.5
 """Distance downstream of the centre at which the middle of a feature has passed [a_x]."""
 PERIODS = 2.5
 """Wavelengths of a harmonic surface that pass the centre, so that a fit over time has two."""
-LONGEST = 6.0
+LONGEST_WAVE = 6.0
 """Longest wave along x that extends a run [a_x]: longer ones tilt the surfaces as a whole."""
 
 
@@ -47,9 +47,17 @@ class Part:
         return (first, last) if self.speed >= 0 else (-last, -first)
 
     def passing_time(self, units: Scales, transient: Transient) -> float:
-        """Return the time in which it, and the film that it lets in, pass the contact [s]."""
+        """Return the time in which it, and the film that it lets in, pass the contact [s].
+
+        Parameters
+        ----------
+        units : Scales
+            For the Hertz half-width along x [m] and the entrainment speed [m/s].
+        transient : Transient
+            Its ``entrance`` is the inlet edge of the roughness at time zero [a_x].
+        """
         width = units.half_width_x
-        distance = max(transient.entrance + BEYOND, self._waves(width, transient)) * width
+        distance = max(transient.entrance + PASSED_DISTANCE, self._waves(width, transient)) * width
         if not self.is_endless:
             distance = max(distance, width - self.ends[0])
         # the film that a surface lets in at the inlet travels at the mean speed
@@ -60,7 +68,7 @@ class Part:
         if not isinstance(self.roughness, HarmonicModel):
             return 0.0
         wave = self.roughness.shortest_wavelengths[0] / width
-        if not wave <= LONGEST:
+        if not wave <= LONGEST_WAVE:
             return 0.0
         front = transient.entrance if transient.start == "smooth" else 0.0
         return front + min(wave, 0.5 * front) + PERIODS * wave  # the second term is its fade-in
@@ -104,7 +112,12 @@ def components(roughness: OneRoughness | Sum) -> tuple[OneRoughness, ...]:
 def misplaced(scaled: ScaledProblem, seconds: float) -> str | None:
     """Return why the roughness never enters the contact, or starts inside it; None if it enters.
 
-    ``seconds`` is the duration of the run [s].
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        With the roughness of both surfaces and ``transient.start``.
+    seconds : float
+        Duration of the run [s].
     """
     problem, units = scaled.problem, scaled.scales
     transient = problem.transient
@@ -164,7 +177,7 @@ def whole_passing(scaled: ScaledProblem) -> float:
     transient, units = scaled.problem.transient, scaled.scales
     if transient is None:
         return 0.0
-    before = (transient.entrance if transient.start == "smooth" else 0.0) + BEYOND
+    before = (transient.entrance if transient.start == "smooth" else 0.0) + PASSED_DISTANCE
     distances = (
         (before * units.half_width_x + part.roughness.box[0][1] - part.roughness.box[0][0], part)
         for part in parts_of(scaled)
@@ -175,15 +188,25 @@ def whole_passing(scaled: ScaledProblem) -> float:
 
 
 def number_of_steps(scaled: ScaledProblem, seconds: float) -> int:
-    """Return the number of time steps of ``seconds`` in the run.
+    """Return the number of time steps of the run.
 
-    Raises InputError if it exceeds `MOST_STEPS`.
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        A transient problem; its stated duration or that of the passage counts.
+    seconds : float
+        Time step [s].
+
+    Raises
+    ------
+    InputError
+        If the number exceeds `MOST_TIME_STEPS`.
     """
     duration = duration_of(scaled)
     steps = duration / seconds
-    if not steps <= MOST_STEPS:
+    if not steps <= MOST_TIME_STEPS:
         raise InputError(
             f"transient.duration = {duration:g} s: takes {steps:.6g} steps of {seconds:.3g} s, "
-            f"more than {MOST_STEPS}; give a shorter one, or a larger transient.stride"
+            f"more than {MOST_TIME_STEPS}; give a shorter one, or a larger transient.stride"
         )
     return math.ceil(steps * (1.0 - 1e-9))

@@ -29,11 +29,11 @@ Lubrication = Literal["boundary", "mixed", "full film"]
 FULL_FILM, BOUNDARY = 3.0, 1.0
 """Lambda from which the film separates the surfaces, and below which asperities carry the load."""
 
-LITTLE, MOSTLY = 0.01, 0.9
+FULL_FILM_SHARE, BOUNDARY_SHARE = 0.01, 0.9
 """Part of the load on asperities below which the film is full, and from which on they are said to
 carry the load: where asperities are computed, lambda is not asked."""
 
-WIDE, SLENDER = 0.7, 1.4
+LEAST_FORMULA_RATIO, LARGEST_FORMULA_RATIO = 0.7, 1.4
 """R_x/R_y below and above which the formulas for the minimum film lose accuracy.
 
 Compared with solves at L = 10 (mineral oil, steel) they are within 0 to 5 % at R_x/R_y = 0.2 and
@@ -215,9 +215,9 @@ def lubrication(lambda_central: float) -> Lubrication:
 
 def lubrication_by_share(share: float) -> Lubrication:
     """Return in words how far a film separates asperities by the part of the load they carry."""
-    if share < LITTLE:
+    if share < FULL_FILM_SHARE:
         return "full film"
-    return "mixed" if share < MOSTLY else "boundary"
+    return "mixed" if share < BOUNDARY_SHARE else "boundary"
 
 
 FORMULAS = (
@@ -246,7 +246,15 @@ FORMULAS = (
 
 
 def film_estimates(groups: Groups, scales: Scales) -> tuple[FilmEstimate, ...]:
-    """Return the film of a contact by each formula, with remarks on its validity."""
+    """Return the film of a contact by each formula, with remarks on its validity.
+
+    Parameters
+    ----------
+    groups : Groups
+        Moes numbers, ellipticity and radius ratio.
+    scales : Scales
+        Its film scale a_x^2/R_x [m] converts H to metres.
+    """
     unit, metres, estimates = hertz_ratio_squared(groups), scales.film_thickness, []
     for formula in FORMULAS:
         film = formula.film(groups)
@@ -279,9 +287,13 @@ def _remarks(formula: Formula, groups: Groups) -> tuple[str, ...]:
 def _minimum_remark(formula: Formula, groups: Groups) -> str | None:
     if math.isinf(formula.minimum_limit):
         return None
-    if groups.radius_ratio < WIDE:
+    if groups.radius_ratio < LEAST_FORMULA_RATIO:
         return "the minimum may be several percent too thick or too thin in a contact this wide"
     if not formula.minimum_limit < groups.M:
         return None
-    how = " and much too thick in slender contacts" if groups.radius_ratio > SLENDER else ""
+    how = (
+        " and much too thick in slender contacts"
+        if groups.radius_ratio > LARGEST_FORMULA_RATIO
+        else ""
+    )
     return f"the minimum is too thick for M above {formula.minimum_limit:g}{how}"

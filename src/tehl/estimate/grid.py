@@ -74,6 +74,13 @@ def can_mirror(shape: tuple[int, int], domain: Domain) -> bool:
     """Whether every grid of the hierarchy can store the upper half of ``domain`` only.
 
     ``shape`` is (ny, nx) of the finest grid; y = 0 must be a row of the coarsest one too.
+
+    Parameters
+    ----------
+    shape : (int, int)
+        Nodes (ny, nx) of the finest grid over the whole domain.
+    domain : Domain
+        Its edges along y must be symmetric.
     """
     ny, nx = shape
     coarsest = halved_grids(Grid(nx=nx, ny=ny, domain=domain, mirror=False))[0]

@@ -48,7 +48,15 @@ def murch_wilson(loading: float) -> float:
 
 
 def wilson_sheu(loading: float, slide_roll_ratio: float) -> float:
-    """Return the factor of Wilson and Sheu [1]_ on the film of rolling and sliding [-]."""
+    """Return the factor of Wilson and Sheu [1]_ on the film of rolling and sliding [-].
+
+    Parameters
+    ----------
+    loading : float
+        Thermal loading of the inlet, `thermal_loading` [-].
+    slide_roll_ratio : float
+        (u_1 - u_2)/u_m [-]; its sign has no effect.
+    """
     slip = 0.5 * abs(slide_roll_ratio)
     return 1.0 / (1.0 + 0.241 * (1.0 + 14.8 * slip**0.83) * loading**0.64)
 

@@ -13,10 +13,10 @@ BYTES_PER_NODE = 180
 """Measured peak memory of an isothermal Newtonian solve per node of the finest full grid."""
 BYTES_COUPLED, BYTES_PER_LAYER = 270, 10
 """Added by heat or shear thinning: per node, and per node and layer across the film."""
-PART = 0.5
+USABLE_MEMORY_PART = 0.5
 """Part of the free memory that a solve takes unasked."""
 USUAL_LAYERS = 9
-NEGLIGIBLE = 16e6
+NEGLIGIBLE_MEMORY = 16e6
 """Need that any machine running Python can satisfy [byte]: available memory is not checked."""
 
 _LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
@@ -24,7 +24,15 @@ _LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_b
 
 
 def needed_memory(options: Options, problem: ContactProblem | None = None) -> float:
-    """Return the estimated peak memory of a solve [byte]."""
+    """Return the estimated peak memory of a solve [byte].
+
+    Parameters
+    ----------
+    options : Options
+        With the nodes of the finest grid stated.
+    problem : ContactProblem or None
+        Heat and time steps need more arrays per node; None is an isothermal steady film.
+    """
     nodes_y, nodes_x = options.shape
     return float(_bytes_per_node(problem) * nodes_y * nodes_x)
 
@@ -46,17 +54,26 @@ def memory_limit(options: Options) -> float:
     """Return the memory that a solve may take where its error decides the nodes [byte]."""
     if options.max_memory is not None:
         return float(options.max_memory)
-    return PART * (available_memory() or math.inf)
+    return USABLE_MEMORY_PART * (available_memory() or math.inf)
 
 
 def check_memory(options: Options, problem: ContactProblem | None = None) -> None:
     """Check that the finest grid fits into the available memory.
 
-    Raises InputError if the estimated need exceeds the available memory; the message names a grid
-    that fits.
+    Parameters
+    ----------
+    options : Options
+        With the nodes of the finest grid stated.
+    problem : ContactProblem or None
+        As of :func:`needed_memory`.
+
+    Raises
+    ------
+    InputError
+        If the need exceeds the available memory; the message names a grid that fits.
     """
     needed = needed_memory(options, problem)
-    available = available_memory() if needed > NEGLIGIBLE else None
+    available = available_memory() if needed > NEGLIGIBLE_MEMORY else None
     if available is None or needed <= available:
         return
     largest = int((available / _bytes_per_node(problem)) ** 0.5)

@@ -29,18 +29,18 @@ from tehl.estimate.scaling import Groups, ScaledProblem
 
 GAMMA = 3.0
 """Exponent of the film law for a circular contact."""
-FLOODED, THIN, LEFT = 50.0, 0.5, 0.002
-"""Supply over that of the flooded contact from which a thin film, H up to `THIN`, is flooded, and
-its error: half of the 0.4 % that it lacks at r = 20 (M = 20 and 50). A thick one is 4 % from
-flooded at r = 60 and M = 5, and 22 % at M = 2."""
-MARGIN, MORE, PLENTY = 1.2, 0.4, 3.0
+FLOODED_SUPPLY, FLOODED_THIN_FILM, FLOODED_ERROR = 50.0, 0.5, 0.002
+"""Supply over that of the flooded contact from which a thin film, H up to `FLOODED_THIN_FILM`, is
+flooded, and its error: half of the 0.4 % that it lacks at r = 20 (M = 20 and 50). A thick one is
+4 % from flooded at r = 60 and M = 5, and 22 % at M = 2."""
+MENISCUS_GAP_MARGIN, MENISCUS_GAP_SLOPE, LARGEST_SLOPE_SUPPLY = 1.2, 0.4, 3.0
 """Margin on the gap at the meniscus, more of it per r up to r = 3: near the contact the pressure
 returns more oil than far upstream."""
-BESIDE = 2.5
+GAP_OVER_LAYER_AT_SIDES = 2.5
 """Gap over layer where the film ends at the sides."""
 LEAST_INLET, LEAST_SIDE = 2.3, 1.7
 """Least distances of the inlet edge and of the side edges, in Hertz half-widths."""
-WIDER = 1.3
+PASSES_SIDE_FACTOR = 1.3
 """Factor on the sides if the surfaces pass repeatedly."""
 OUTLETS = ((3.0, 0.6), (math.inf, 5.0 / 11.0))
 """Outlet over inlet, up to these distances of the inlet: X = 0 is a node."""
@@ -109,7 +109,7 @@ def entering_oil(scaled: ScaledProblem) -> EnteringOil | None:
         y, oil = places / scaled.scales.half_width_y, layers * unit
     found = EnteringOil(y=y, oil=oil)
     flooded = flooded_oil(scaled)
-    is_flooded = flooded <= THIN and float(oil.min()) > FLOODED * flooded
+    is_flooded = flooded <= FLOODED_THIN_FILM and float(oil.min()) > FLOODED_SUPPLY * flooded
     return None if is_flooded else found
 
 
@@ -178,7 +178,7 @@ def supply_error(scaled: ScaledProblem) -> float:
     """
     supply = scaled.problem.supply
     if supply is not None and not is_starved(scaled):
-        return LEFT
+        return FLOODED_ERROR
     if supply is None or supply.ratio is None:
         return 0.0
     return scaled.flooded_error / (1.0 + supply.ratio**2)
@@ -200,12 +200,19 @@ def starved_domain(scaled: ScaledProblem) -> Domain:
     across = groups.radius_ratio * groups.ellipticity**2
     # far upstream the pressure returns 3/(3 + 2 D) of the oil that the surfaces drag in
     backflow = 1.5 / groups.radius_ratio + 1.0
-    margin = MARGIN + MORE * min(oil.largest / flooded_oil(scaled), PLENTY)
+    margin = MENISCUS_GAP_MARGIN + MENISCUS_GAP_SLOPE * min(
+        oil.largest / flooded_oil(scaled), LARGEST_SLOPE_SUPPLY
+    )
     # where the rigid gap, less the approach of about one, is the thickest that the oil can fill
     inlet = max(LEAST_INLET, math.sqrt(2.0 * (margin * backflow * oil.largest + 1.0)))
-    side = max(LEAST_SIDE, math.sqrt(2.0 * (MARGIN * BESIDE * oil.largest + 1.0) / across))
+    side = max(
+        LEAST_SIDE,
+        math.sqrt(
+            2.0 * (MENISCUS_GAP_MARGIN * GAP_OVER_LAYER_AT_SIDES * oil.largest + 1.0) / across
+        ),
+    )
     if scaled.problem.has_passes:
-        side *= WIDER  # for the ridges of oil beside the track
+        side *= PASSES_SIDE_FACTOR  # for the ridges of oil beside the track
     inlet, side = (math.ceil(10.0 * edge) / 10.0 for edge in (inlet, side))
     part = next(part for limit, part in OUTLETS if inlet <= limit)
     return Domain.model_construct(x=(-inlet, part * inlet), y=(-side, side))
@@ -214,7 +221,17 @@ def starved_domain(scaled: ScaledProblem) -> Domain:
 def check_supply(scaled: ScaledProblem, domain: Domain) -> None:
     """Check that a stated domain can hold the layer, and the profile covers the domain.
 
-    Raises InputError with one sentence.
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        A fully flooded one passes.
+    domain : Domain
+        Edges in Hertz half-widths.
+
+    Raises
+    ------
+    InputError
+        If the profile is too narrow, or the layer fills the gap at the inlet edge.
     """
     supply, oil, scales = scaled.problem.supply, entering_oil(scaled), scaled.scales
     if supply is None or oil is None:

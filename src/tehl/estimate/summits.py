@@ -22,9 +22,9 @@ from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.starvation import supplied_film
 
 HALVINGS = 30
-APART = 1e-9
+NEGLIGIBLE_ASPERITY_PRESSURE = 1e-9
 """Pressure of the asperities, over that of Hertz, below which they are apart."""
-LEAST, MOST, STEP = -6.0, 30.0, 0.01
+LEAST_SEPARATION, LAST_SEPARATION, SEPARATION_STEP = -6.0, 30.0, 0.01
 """Separations of the mean planes over sigma between which their laws are used, and the step."""
 
 
@@ -50,7 +50,7 @@ def shared_load(scaled: ScaledProblem) -> SharedLoad:
     unit = sigma / scales.film_thickness
     entering = scaled.entering
     flooded = expected_central_film(entering)
-    separations = np.arange(LEAST, MOST, STEP)
+    separations = np.arange(LEAST_SEPARATION, LAST_SEPARATION, SEPARATION_STEP)
     gaps, loads = _summits() if isinstance(asperities, GreenwoodTripp) else _laws(asperities)
     carried = asperities.unit(sigma, modulus) * loads / scales.hertz_pressure
 
@@ -59,9 +59,9 @@ def shared_load(scaled: ScaledProblem) -> SharedLoad:
         softer = expected_central_film(_softer(entering, 1.0 - share))
         return film / flooded * softer / unit
 
-    if float(np.interp(rest(0.0), gaps, carried)) < APART:
+    if float(np.interp(rest(0.0), gaps, carried)) < NEGLIGIBLE_ASPERITY_PRESSURE:
         return SharedLoad(separation=film, gap=film, share=0.0)
-    low, high = 0.0, 1.0 - APART
+    low, high = 0.0, 1.0 - NEGLIGIBLE_ASPERITY_PRESSURE
     for _ in range(HALVINGS):
         share = 0.5 * (low + high)
         # at the gap of such a film the asperities would carry more, or less, than their share
@@ -76,13 +76,13 @@ def shared_load(scaled: ScaledProblem) -> SharedLoad:
 @cache
 def _summits() -> tuple[Array, Array]:
     """Return `_laws` of Greenwood and Tripp, the same for all summits."""
-    separations = np.arange(LEAST, MOST, STEP)
+    separations = np.arange(LEAST_SEPARATION, LAST_SEPARATION, SEPARATION_STEP)
     return mean_gap(separations), gaussian_integral(2.5, separations)
 
 
 def _laws(asperities: Asperities) -> tuple[Array, Array]:
     """Return mean gap over sigma, and load over its unit, at all separations."""
-    separations = np.arange(LEAST, MOST, STEP)
+    separations = np.arange(LEAST_SEPARATION, LAST_SEPARATION, SEPARATION_STEP)
     return asperities.mean_gap(separations), asperities.load(separations)
 
 

@@ -41,7 +41,7 @@ from tehl.lubricant.density import DensityLaw
 from tehl.roughness import AnyRoughness, Sum, WaveVector
 from tehl.roughness.waves import HarmonicModel
 
-_STEP = 1e5
+_PRESSURE_STEP = 1e5
 """Difference of pressure over which the bulk modulus is taken [Pa]."""
 
 
@@ -119,8 +119,10 @@ def bulk_modulus(law: DensityLaw, pressure: float, temperature: float) -> float:
     pressure, temperature : float
         State [Pa], [K].
     """
-    below, here, above = law.density(pressure + np.array([-_STEP, 0.0, _STEP]), temperature)
-    return float(here * 2.0 * _STEP / (above - below)) if above > below else math.inf
+    below, here, above = law.density(
+        pressure + np.array([-_PRESSURE_STEP, 0.0, _PRESSURE_STEP]), temperature
+    )
+    return float(here * 2.0 * _PRESSURE_STEP / (above - below)) if above > below else math.inf
 
 
 def why_no_theory(problem: ContactProblem) -> str | None:
@@ -139,7 +141,12 @@ def expected_waves(
 ) -> Iterator[tuple[WaveVector, LinearTheory]]:
     """Yield the stated waves of both surfaces with their ripples in the middle of the contact.
 
-    ``film`` is the expected central film [m].
+    Parameters
+    ----------
+    problem : ContactProblem
+        Oil properties are taken at the Hertz pressure and the inlet temperature.
+    film : float
+        Expected central film [m].
     """
     oil, pressure = problem.lubricant, problem.hertz.pressure
     temperature = problem.inlet_temperature
@@ -204,8 +211,12 @@ def nabla_of(wavelength: float, load: float, speed: float) -> float:
 def amplitude_reduction(nabla: float, *, ratio: float = 1.0) -> float:
     """Return the part of a wave that is left in the film in pure rolling [-], [3]_ eq. (29).
 
-    ``nabla`` is (lambda / a) sqrt(M/L), and ``ratio`` the wavelength along x over that along y,
-    zero for a transverse wave [-].
+    Parameters
+    ----------
+    nabla : float
+        (lambda / a) sqrt(M/L) [-].
+    ratio : float
+        Wavelength along x over that along y [-], zero for a transverse wave.
     """
     scaled = nabla * (math.exp(1.0 - 1.0 / ratio) if ratio > 1.0 else 1.0)
     return 1.0 / (1.0 + 0.15 * scaled + 0.015 * scaled**2)

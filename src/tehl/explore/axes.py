@@ -9,7 +9,7 @@ import numpy as np
 from tehl.base.typing import Array
 
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
-_ROUNDING = 1e-9
+_TICK_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,8 +56,8 @@ def ticks(low: float, high: float, count: int) -> list[float]:
     rough = (high - low) / max(count, 1)
     power = 10.0 ** math.floor(math.log10(rough))
     step = min((s * power for s in _STEPS), key=lambda s: abs(math.log(s / rough)))
-    first = math.ceil(low / step - _ROUNDING)
-    last = math.floor(high / step + _ROUNDING)
+    first = math.ceil(low / step - _TICK_ROUNDING)
+    last = math.floor(high / step + _TICK_ROUNDING)
     return [number * step for number in range(first, last + 1)]
 
 
@@ -74,7 +74,7 @@ def log_ticks(low: float, high: float, count: int) -> list[float]:
 
 def number_text(value: float) -> str:
     """Return the label of a tick: 0.01, 250, 2e-05."""
-    text = f"{value:.4g}" if abs(value) >= _ROUNDING else "0"
+    text = f"{value:.4g}" if abs(value) >= _TICK_ROUNDING else "0"
     if 1e4 <= abs(value) < 1e6:
         text = f"{value:.0f}"
     return text.replace("e-0", "e-").replace("e+0", "e").replace("-", "−")

@@ -15,9 +15,9 @@ from tehl.io.templates import template_text
 from tehl.lubricant.fluid import OILS
 
 _LAWS = ("lubricant.viscosity.", "lubricant.density.")
-LARGEST = 200_000
+LARGEST_TEXT = 200_000
 """Characters of the text of a case; one with more is not a case that a person wrote."""
-LONGEST = 60_000
+LONGEST_ADDRESS = 60_000
 """Characters of a case in an address; servers and mail programs cut longer ones."""
 _WITHOUT = ("name", "source", "aliases")
 """Keys of a named solid or oil that do not hold any more once it is edited."""
@@ -52,8 +52,8 @@ class CaseText:
     """
 
     def __init__(self, text: str) -> None:
-        if len(text) > LARGEST:
-            raise InputError(f"larger than {LARGEST // 1000} kB, so not a case file")
+        if len(text) > LARGEST_TEXT:
+            raise InputError(f"larger than {LARGEST_TEXT // 1000} kB, so not a case file")
         self.tables: dict[str, Any] = tables_of_text(text)
         self.text = text
 
@@ -68,7 +68,7 @@ class CaseText:
         try:
             padded = packed + "=" * (-len(packed) % 4)
             stream = zlib.decompressobj()
-            content = stream.decompress(base64.urlsafe_b64decode(padded), LARGEST)
+            content = stream.decompress(base64.urlsafe_b64decode(padded), LARGEST_TEXT)
             if not stream.eof:
                 raise ValueError(packed)
             return cls(content.decode("utf-8"))
@@ -85,7 +85,7 @@ class CaseText:
     def link(self) -> str:
         """The address of the case on the page; empty if it were too long."""
         packed = self.packed
-        return f"/?case={packed}" if len(packed) <= LONGEST else ""
+        return f"/?case={packed}" if len(packed) <= LONGEST_ADDRESS else ""
 
     def get(self, path: str) -> Any:
         """Return the value at a dotted path as the text states it; None if it does not."""

@@ -16,10 +16,16 @@ from tehl.base.typing import Array
 from tehl.explore.axes import Frame, Picture, Scale, number_text, svg, text, ticks, turned
 from tehl.explore.shown import Maps, Section, Shown, Span
 
-_LEFT, _RIGHT, _TOP, _BOTTOM, _BARE = 58.0, 84.0, 26.0, 46.0, 14.0
+_LEFT_MARGIN, _RIGHT_MARGIN, _TOP_MARGIN, _BOTTOM_MARGIN, _BARE_MARGIN = (
+    58.0,
+    84.0,
+    26.0,
+    46.0,
+    14.0,
+)
 """Margins in pixels; the last one at the right without a colour bar."""
 _X_LABEL = "x along entrainment [µm]"
-_WIDEST = 400.0
+_WIDEST_IMAGE = 400.0
 """Pixels of an image; the browser draws it wider, smoothly."""
 _NUMBERS = count()
 """For names of gradients: one in a hidden drawing has no effect on another."""
@@ -103,7 +109,7 @@ def fringes_picture(shown: Shown, size: tuple[float, float]) -> Picture:
     """Draw the interferogram, which has no colour bar."""
     maps, fringes = shown.maps, shown.fringes
     assert fringes is not None
-    frame = _frame(maps.window, maps.stretch, size, _BARE)
+    frame = _frame(maps.window, maps.stretch, size, _BARE_MARGIN)
     buffer = io.BytesIO()
     Image.fromarray(fringes).save(buffer, "PNG", compress_level=1)
     parts = frame.svg(_X_LABEL, "y [µm]") + _contact(frame, maps)
@@ -116,8 +122,8 @@ def section_picture(
 ) -> Picture:
     """Draw the temperature rise in the plane y = 0, across the film."""
     width, height = size[0], min(size[1], 0.55 * size[0] + 60.0)
-    x = Scale(*maps.window[0], _LEFT, width - _RIGHT)
-    frame = Frame(x, Scale(0.0, 1.0, height - _BOTTOM, _TOP), width, height)
+    x = Scale(*maps.window[0], _LEFT_MARGIN, width - _RIGHT_MARGIN)
+    frame = Frame(x, Scale(0.0, 1.0, height - _BOTTOM_MARGIN, _TOP_MARGIN), width, height)
     axes = (section.x, np.linspace(0.0, 1.0, len(section.rise)))
     look = Look(limits, ticks(limits.low, limits.high, 9), "inferno", "rise over the inlet [K]")
     parts = _contours(section.rise, axes, frame, look.levels)
@@ -137,7 +143,7 @@ def heights_picture(
         Limits(low, high if high > low else low + 1.0), [], "viridis", "height outwards [nm]"
     )
     x, y = ((float(axis[0]), float(axis[-1])) for axis in axes)
-    frame = _frame((x, y), 1.0, size, _RIGHT)
+    frame = _frame((x, y), 1.0, size, _RIGHT_MARGIN)
     parts = frame.svg(_X_LABEL, "y [µm]")
     return _coloured(heights, axes, frame, look, parts, "map of the heights")
 
@@ -150,7 +156,7 @@ def value_at(x_axis: Array, y_axis: Array, field: Array, x: float, y: float) -> 
 
 
 def _map(maps: Maps, field: Array, look: Look, size: tuple[float, float]) -> Picture:
-    frame = _frame(maps.window, maps.stretch, size, _RIGHT if look.bar else _BARE)
+    frame = _frame(maps.window, maps.stretch, size, _RIGHT_MARGIN if look.bar else _BARE_MARGIN)
     axes = (maps.x, maps.y)
     parts = _contours(field, axes, frame, look.levels) + _contact(frame, maps)
     parts += frame.svg(_X_LABEL, _y_label(maps)) + _legend(frame, maps)
@@ -180,12 +186,14 @@ def _frame(
     """Return the scales of a map as large as fits."""
     (left, right), (bottom, top) = window
     shape = (top - bottom) / (right - left) * stretch
-    width = min(size[0] - _LEFT - right_margin, (size[1] - _TOP - _BOTTOM) / shape)
-    full = _TOP + width * shape + _BOTTOM
+    width = min(
+        size[0] - _LEFT_MARGIN - right_margin, (size[1] - _TOP_MARGIN - _BOTTOM_MARGIN) / shape
+    )
+    full = _TOP_MARGIN + width * shape + _BOTTOM_MARGIN
     return Frame(
-        Scale(left, right, _LEFT, _LEFT + width),
-        Scale(bottom, top, full - _BOTTOM, _TOP),
-        _LEFT + width + right_margin,
+        Scale(left, right, _LEFT_MARGIN, _LEFT_MARGIN + width),
+        Scale(bottom, top, full - _BOTTOM_MARGIN, _TOP_MARGIN),
+        _LEFT_MARGIN + width + right_margin,
         full,
     )
 
@@ -193,7 +201,7 @@ def _frame(
 def _resampled(field: Array, axes: tuple[Array, Array], frame: Frame) -> Array:
     """Return a field at the pixels of its image, from the top down."""
     *_, width, height = frame.place
-    fewer = max(1.0, width / _WIDEST)
+    fewer = max(1.0, width / _WIDEST_IMAGE)
     columns, rows = max(2, round(width / fewer)), max(2, round(height / fewer))
     along = np.linspace(frame.x.low, frame.x.high, columns)
     down = np.linspace(frame.y.high, frame.y.low, rows)

@@ -10,7 +10,7 @@ from tehl.explore.elements import button, plain
 from tehl.explore.knobs import Choice, Group, Knob
 from tehl.explore.tab import Tab
 
-_STEPS, _EDGE = 200, 2
+_SLIDER_PLACES, _EDGE_PLACES = 200, 2
 """Places of a slider, and those at either end from which its range moves on."""
 _THROTTLE = 0.03
 """Seconds between two places of a moving slider."""
@@ -89,7 +89,7 @@ class KnobRow(Row):
                 self.entry.props(f'input-class="entry" aria-label="{knob.label}"').classes("entry")
                 self.entry.on("keydown.enter", self._typed).on("blur", self._typed)
                 self._unit_selector()
-            self.slider = ui.slider(min=0, max=_STEPS, step=1, value=self._place())
+            self.slider = ui.slider(min=0, max=_SLIDER_PLACES, step=1, value=self._place())
             self.slider.props(f'aria-label="{knob.label}" dense').classes("knob-slider")
             self.slider.on(
                 "update:model-value", self._moved, [None], throttle=_THROTTLE, leading_events=True
@@ -112,11 +112,11 @@ class KnobRow(Row):
     # ---- the slider
 
     def _place(self) -> int:
-        return round(_STEPS * self.knob.part(self.value, self.reach))
+        return round(_SLIDER_PLACES * self.knob.part(self.value, self.reach))
 
     def _at(self, place: float) -> float:
         """Return the value at a place of the slider, to three digits."""
-        number = self.knob.number(self.knob.at(place / _STEPS, self.reach), self.unit)
+        number = self.knob.number(self.knob.at(place / _SLIDER_PLACES, self.reach), self.unit)
         size = abs(number)
         if not self.knob.spreads(self.reach):
             low, high = (self.knob.number(end, self.unit) for end in self.reach)
@@ -126,13 +126,13 @@ class KnobRow(Row):
 
     def _moved(self, event: Any) -> None:
         place = float(plain(event.args))
-        if place != self.left_at:  # the last place comes once more after the release
+        if place != self.left_at:  # the last place is sent again after the release
             self._set(place, moving=True)
 
     def _released(self, event: Any) -> None:
         self.left_at = float(plain(event.args))
         self._set(self.left_at, moving=False)
-        if self.knob.is_log and not _EDGE < self.left_at < _STEPS - _EDGE:
+        if self.knob.is_log and not _EDGE_PLACES < self.left_at < _SLIDER_PLACES - _EDGE_PLACES:
             self._centre()
 
     def _set(self, place: float, *, moving: bool) -> None:

@@ -19,8 +19,8 @@ from tehl.explore.tab import Tab
 if TYPE_CHECKING:
     from tehl.explore.axes import Frame
 
-_POINTS = 13
-_MOST = 101
+_DEFAULT_POINTS = 13
+_MOST_POINTS = 101
 _ABOVE = {
     "friction": "contact.slide_roll_ratio",
     "power": "contact.slide_roll_ratio",
@@ -61,7 +61,9 @@ class CurvePanel(JobPanel):
             self.over = ui.select({}, label="over", on_change=self._take_range)
             self.low = ui.input("from").classes("sweep-end")
             self.high = ui.input("to").classes("sweep-end")
-            self.count = ui.number("points", value=_POINTS, min=3, max=_MOST, precision=0)
+            self.count = ui.number(
+                "points", value=_DEFAULT_POINTS, min=3, max=_MOST_POINTS, precision=0
+            )
             self.count.classes("sweep-end")
             for field in (self.quantity, self.over, self.low, self.high, self.count):
                 field.props("dense outlined options-dense")
@@ -132,7 +134,7 @@ class CurvePanel(JobPanel):
     def _sweep(self, knob: Knob) -> Sweep:
         """Return the sweep that is asked for, of which no point is solved yet."""
         tables, (low, high) = self.tab.tables, ends(str(self.low.value), str(self.high.value))
-        count = int(min(max(self.count.value or _POINTS, 3), _MOST))
+        count = int(min(max(self.count.value or _DEFAULT_POINTS, 3), _MOST_POINTS))
         self.points, self.knob, self.span, self.wanted = [], knob, (low, high), count
         values = ((x, knob.stated(x, knob.unit)) for x in spread(low, high, count))
         return Sweep(tables, knob.path, tuple(values))
@@ -213,7 +215,7 @@ class CurvePanel(JobPanel):
 
     def _save(self) -> None:
         if self.points and self.knob is not None:
-            ui.download.content(table_of(self.knob, self.points), "curve.csv", "text/csv")
+            ui.download.content(_table_of(self.knob, self.points), "curve.csv", "text/csv")
 
 
 _INVITATION = (
@@ -252,7 +254,7 @@ def spread(low: float, high: float, count: int) -> tuple[float, ...]:
     return tuple(float(f"{places[k]:.5g}") for k in order)
 
 
-def table_of(knob: Knob, points: list[Swept]) -> str:
+def _table_of(knob: Knob, points: list[Swept]) -> str:
     """Return a sweep as CSV: the control, then each quantity with its relative error."""
     known = [point for point in points if point.numbers]
     keys = [one.key for one in known[0].numbers] if known else []

@@ -9,8 +9,8 @@ import numpy as np
 from tehl.explore.axes import Frame, Picture, Scale, keys, svg, turned
 from tehl.explore.shown import Line, Lines, Shown
 
-_LEFT, _RIGHT, _TOP, _BOTTOM = 62.0, 62.0, 28.0, 46.0
-_NEAR = 30.0
+_CURVE_LEFT, _CURVE_RIGHT, _CURVE_TOP, _CURVE_BOTTOM = 62.0, 62.0, 28.0, 46.0
+_NEAR_PIXELS = 30.0
 """Pixels from the pointer within which a swept value is read."""
 
 
@@ -36,7 +36,7 @@ def line_charts(
     faint = (None, None) if other is None else (other.lines.x, other.lines.y)
     charts = []
     for number, line in enumerate((shown.lines.x, shown.lines.y)):
-        x = Scale(*shown.maps.window[number], _LEFT, size[0] - _RIGHT)
+        x = Scale(*shown.maps.window[number], _CURVE_LEFT, size[0] - _CURVE_RIGHT)
         charts.append(_centre_line((line, faint[number]), labels[number], x, height, top))
     return charts
 
@@ -66,18 +66,18 @@ def nearest(points: Sequence[Point], frame: Frame, right: float) -> Point | None
     """Return the swept value nearest to a pixel along x, None if none is near."""
     known = [point for point in points if point.y is not None]
     found = min(known, key=lambda point: abs(frame.x(point.x) - right), default=None)
-    return found if found is not None and abs(frame.x(found.x) - right) < _NEAR else None
+    return found if found is not None and abs(frame.x(found.x) - right) < _NEAR_PIXELS else None
 
 
 def _centre_line(
     lines: tuple[Line, Line | None], label: str, x: Scale, height: float, top: tuple[float, float]
 ) -> Picture:
-    size, low = (x.end + _RIGHT, height), height - _BOTTOM
-    of_film = Frame(x, Scale(0.0, top[0], low, _TOP), *size)
-    of_pressure = Frame(x, Scale(0.0, top[1], low, _TOP), *size)
+    size, low = (x.end + _CURVE_RIGHT, height), height - _CURVE_BOTTOM
+    of_film = Frame(x, Scale(0.0, top[0], low, _CURVE_TOP), *size)
+    of_pressure = Frame(x, Scale(0.0, top[1], low, _CURVE_TOP), *size)
     parts = of_film.svg(label, "film [nm]", grid=True, colour="film")
     parts += "".join(of_pressure.y_ticks(x.end, 1, grid=False, colour="pressure"))
-    parts += turned(x.end + 48, 0.5 * (low + _TOP), "pressure [GPa]", "label pressure")
+    parts += turned(x.end + 48, 0.5 * (low + _CURVE_TOP), "pressure [GPa]", "label pressure")
     names = [("film", "film"), ("pressure", "pressure"), ("Hertz", "dashed pressure")]
     for line, style in ((lines[1], "faint "), (lines[0], "")):
         if line is None:
@@ -107,7 +107,7 @@ def swept_chart(
     values = [at * (1 + side * one.error) for one in known if (at := one.y) for side in (-1, 1)]
     values += [here.y] if here is not None and here.y is not None else []
     y = _y_scale(values, size)
-    frame = Frame(Scale(*span, _LEFT, size[0] - 24, wide), y, *size)
+    frame = Frame(Scale(*span, _CURVE_LEFT, size[0] - 24, wide), y, *size)
     parts = frame.svg(*labels, grid=True)
     xs, ys = np.array([p.x for p in known]), np.array([p.y for p in known], dtype=float)
     order = np.argsort(xs)
@@ -133,7 +133,7 @@ def _y_scale(values: list[float], size: tuple[float, float]) -> Scale:
         room = 0.08 * (high - low) or 0.1 * abs(high) or 1.0
         low = 0.0 if 0 <= low < 0.45 * high else low - room
         high += room
-    return Scale(low, high, size[1] - _BOTTOM, _TOP, is_log)
+    return Scale(low, high, size[1] - _CURVE_BOTTOM, _CURVE_TOP, is_log)
 
 
 def _mark(frame: Frame, point: Point) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 from tehl.base.errors import InputError
 from tehl.roughness.files import ENDINGS
 
-LARGEST = 50_000_000
+LARGEST_UPLOAD = 50_000_000
 """Bytes of an upload."""
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 Place = tuple[str | int, ...]
@@ -41,8 +41,10 @@ class Files:
                 f"{plain or 'the file'}: the ending is not a format of heights; known are "
                 f"{', '.join(ENDINGS)}"
             )
-        if len(content) > LARGEST:
-            raise InputError(f"{plain}: larger than {LARGEST // 10**6} MB; crop the map before")
+        if len(content) > LARGEST_UPLOAD:
+            raise InputError(
+                f"{plain}: larger than {LARGEST_UPLOAD // 10**6} MB; crop the map before"
+            )
         self.uploads.mkdir(parents=True, exist_ok=True)
         name, number = plain, 1
         while (path := self.uploads / name).exists() and path.read_bytes() != content:

@@ -5,7 +5,7 @@ from typing import Any
 from nicegui import ui
 
 from tehl.base.errors import InputError
-from tehl.explore.case_text import LARGEST, CaseText, template_case
+from tehl.explore.case_text import LARGEST_TEXT, CaseText, template_case
 from tehl.explore.elements import button, main_button
 from tehl.explore.job_panel import JobPanel
 from tehl.explore.tab import Tab
@@ -110,7 +110,7 @@ class Header(JobPanel):
             ui.label("Open a case").classes("dialog-title")
             upload = ui.upload(
                 label="choose or drop a case file (.toml)",
-                max_file_size=LARGEST,
+                max_file_size=LARGEST_TEXT,
                 auto_upload=True,
                 on_rejected=lambda: ui.notify(
                     "larger than 200 kB, so not a case file", type="negative"
@@ -147,7 +147,7 @@ class Header(JobPanel):
         ui.download.content(self.tab.case.text, f"{self._stem()}.toml", "application/toml")
 
     def _copy_python(self) -> None:
-        ui.clipboard.write(python_of(self.tab.case.text, self._stem()))
+        ui.clipboard.write(_python_of(self.tab.case.text, self._stem()))
         ui.notify("Python code copied")
 
     def _copy_link(self) -> None:
@@ -182,7 +182,7 @@ class Header(JobPanel):
         self._say("")
 
 
-def python_of(text: str, stem: str) -> str:
+def _python_of(text: str, stem: str) -> str:
     """Return a script that solves a case."""
     quoted = text.replace("\\", "\\\\").replace('"""', '\\"\\"\\"')
     return (

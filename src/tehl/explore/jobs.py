@@ -31,9 +31,9 @@ else:
     kernel_cache = lazy("tehl.kernels.cache")
     warmup = lazy("tehl.kernels.warmup")
 
-QUICK, MIDDLE = 65, 129
+QUICK_NODES, MIDDLE_NODES = 65, 129
 """Nodes per direction while a slider moves, and on the way to the accuracy of the case."""
-_KEPT = 6
+_KEPT_RESULTS = 6
 """Results kept for pictures and files."""
 
 Send = Callable[[Any], None]
@@ -210,7 +210,7 @@ class Desk:
                 found = error.result
             self.kept[key] = found
         self.kept.move_to_end(key)
-        while len(self.kept) > _KEPT:
+        while len(self.kept) > _KEPT_RESULTS:
             self.kept.popitem(last=False)
         return self.kept[key]
 
@@ -252,10 +252,10 @@ def _stages(options: Options, found: Explanation, *, quick: bool) -> Iterator[tu
     """Yield the options of the grids to show, and whether they are those of the case."""
     stated = options.points != "auto"
     finest = min(options.shape) if stated else found.expected_points
-    for nodes in (QUICK,) if quick else (MIDDLE,):
+    for nodes in (QUICK_NODES,) if quick else (MIDDLE_NODES,):
         if nodes < finest:
             yield options.model_copy(update={"points": nodes, "error": None}), False
-    if not quick or finest <= QUICK:
+    if not quick or finest <= QUICK_NODES:
         yield options, True
 
 

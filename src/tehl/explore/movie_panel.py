@@ -123,7 +123,7 @@ class MoviePanel(JobPanel):
         limits = replace(film_limits(movie.maps), low=0.95 * max(_least(movie), 1e-3))
         size = (self.size[0], max(280.0, self.size[1] - 210.0))
         self.drawing.show(film_picture(maps, limits, size))
-        self.history.set_content(history_drawing(movie, frame, (self.size[0], 170.0)))
+        self.history.set_content(_history_drawing(movie, frame, (self.size[0], 170.0)))
         self.clock.set_text(f"{movie.times[frame]:.0f} µs")
 
 
@@ -139,7 +139,7 @@ def duration(seconds: float) -> str:
     return f"{seconds / 60:.0f} min"
 
 
-def history_drawing(movie: Movie, frame: int, size: tuple[float, float]) -> str:
+def _history_drawing(movie: Movie, frame: int, size: tuple[float, float]) -> str:
     """Draw central and minimum film over time, and where the movie is."""
     time, central, minimum = movie.history
     top = 1.1 * float(np.nanmax(central))

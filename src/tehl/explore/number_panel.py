@@ -12,7 +12,7 @@ from tehl.explore.elements import button, mark
 from tehl.explore.numbers import Number, value_of
 from tehl.explore.tab import Tab
 
-_REACH = 0.3
+_BAR_RANGE = 0.3
 """Relative deviation at the ends of the drawn error bar."""
 _MAIN = ("h_central", "h_min", "p_max", "friction")
 """Numbers that stay in sight on a narrow screen."""
@@ -115,7 +115,7 @@ def value_text(one: Number) -> str:
 
 
 def _rounded(value: float, digits: int) -> str:
-    """Return a number with so many digits, without an exponent where it reads well."""
+    """Round a number to significant digits, without an exponent from 1e-5 to 1e7."""
     text = f"{value:.{digits}g}"
     if "e" in text and 1e-5 < abs(value) < 1e7:
         text = f"{float(text):.10f}".rstrip("0").rstrip(".")
@@ -154,11 +154,11 @@ def _bar(one: Number) -> str:
     parts = ['<path d="M0 7H100" class="track"/>', '<path d="M50 2V12" class="middle"/>']
     words = "no error bar yet"
     if one.error is not None:
-        half = min(abs(one.error) / _REACH, 1.0) * 50.0
+        half = min(abs(one.error) / _BAR_RANGE, 1.0) * 50.0
         parts.insert(1, f'<path d="M{50 - half:.2f} 7H{50 + half:.2f}" class="band"/>')
         words = f"error bar {100 * abs(one.error):.2g} %"
     for author, value in one.formulas:
-        away = (value / one.value - 1.0) / _REACH
+        away = (value / one.value - 1.0) / _BAR_RANGE
         if abs(away) <= 1.0:
             at = 50 + 50 * away
             name = f"<title>{escape(author)}</title>"

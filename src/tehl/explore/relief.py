@@ -16,7 +16,7 @@ _RAYS, _RINGS = 121, 48
 _SEARCHED = 200
 """Places along a ray among which the rim is found."""
 _SHADES = 12
-_NARROW = 560.0
+_NARROW_PICTURE = 560.0
 """Pixels of a picture in which the axes need more room."""
 
 
@@ -40,7 +40,7 @@ def relief_figure(maps: Maps, limits: Limits, size: tuple[float, float]) -> dict
         "colorbar": {"title": {"text": "film [nm]"}, "thickness": 13, "len": 0.7},
         "hovertemplate": "x %{x:.0f} µm, y %{y:.0f} µm, h %{z:.4g} nm<extra></extra>",
     }
-    away = 1.15 if size[0] > _NARROW else 1.4
+    away = 1.15 if size[0] > _NARROW_PICTURE else 1.4
     scene = {
         "xaxis": {"title": {"text": "x [µm]"}, **axis},
         "yaxis": {"title": {"text": "y [µm]"}, **axis},

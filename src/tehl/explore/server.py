@@ -16,8 +16,8 @@ from starlette.responses import HTMLResponse
 
 from tehl.base.errors import InputError
 from tehl.base.lazy import lazy
-from tehl.explore.case_text import LONGEST, CaseText
-from tehl.explore.files import LARGEST, Files, named_files
+from tehl.explore.case_text import LONGEST_ADDRESS, CaseText
+from tehl.explore.files import LARGEST_UPLOAD, Files, named_files
 
 if TYPE_CHECKING:
     from tehl.explore import page as pages
@@ -31,16 +31,16 @@ REFUSED = (
     "This address lacks the token of the running page. Open the address that `tehl explore` has "
     "printed in its terminal."
 )
-TOO_LARGE = f"An upload has at most {LARGEST // 10**6} MB: crop the map before."
+TOO_LARGE = f"An upload has at most {LARGEST_UPLOAD // 10**6} MB: crop the map before."
 TOO_LONG = (
-    f"This link is longer than {LONGEST // 1000} kB, and may have been cut on its way: "
+    f"This link is longer than {LONGEST_ADDRESS // 1000} kB, and may have been cut on its way: "
     "open the case as a file on the page."
 )
 _LONGEST_LINE = 2_100_000
 """Bytes of a request line that are read, to reply to it: browsers send up to two million."""
-_AROUND = 100_000
+_UPLOAD_MARGIN = 100_000
 """Bytes around the file in the request of an upload."""
-_BESIDE = 500
+_QUERY_MARGIN = 500
 """Bytes beside the case in the query of an address."""
 _POLICY = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "
@@ -77,7 +77,7 @@ class Guard:
         if not self._may_pass(headers, given):
             await _refuse(scope, receive, send, REFUSED, 403)
             return
-        if len(scope["query_string"]) > LONGEST + _BESIDE:
+        if len(scope["query_string"]) > LONGEST_ADDRESS + _QUERY_MARGIN:
             await _refuse(scope, receive, send, TOO_LONG, 414)
             return
         if scope["type"] == "http" and not _is_small(scope["method"], headers):
@@ -113,7 +113,7 @@ def _is_small(method: str, headers: dict[str, str]) -> bool:
     if method in ("GET", "HEAD", "OPTIONS"):
         return True
     length = headers.get("content-length", "")
-    return length.isdecimal() and int(length) <= LARGEST + _AROUND
+    return length.isdecimal() and int(length) <= LARGEST_UPLOAD + _UPLOAD_MARGIN
 
 
 async def _refuse(scope: Any, receive: Any, send: Any, words: str, code: int) -> None:

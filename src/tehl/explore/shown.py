@@ -13,9 +13,9 @@ from tehl.post.film import hertz_pressure
 from tehl.report.explain import Explanation
 from tehl.result.solution import Settings
 
-_ACROSS = 41
+_SECTION_POINTS = 41
 """Places across the film of a temperature section."""
-_FINE = 480
+_INTERFEROGRAM_PIXELS = 480
 """Pixels along x of an interferogram."""
 
 Span = tuple[float, float]
@@ -183,7 +183,7 @@ def _section(result: Result) -> Section | None:
     rise = np.nan_to_num(heat.temperature[:, row, columns] - inlet)
     return Section(
         x=result.x[columns] * 1e6,
-        rise=_single(CubicSpline(heat.zeta, rise, axis=0)(np.linspace(0.0, 1.0, _ACROSS))),
+        rise=_single(CubicSpline(heat.zeta, rise, axis=0)(np.linspace(0.0, 1.0, _SECTION_POINTS))),
         inlet=inlet - 273.15,
     )
 
@@ -197,9 +197,9 @@ def _fringes(result: Result) -> Array:
     ratio = law.density(result.pressure[rows, columns], result.scales.temperature)
     thickness = optics.thickness(maps.film * 1e-9, ratio / result.scales.density)
     (left, right), (bottom, top) = maps.window
-    height = max(2, round(_FINE * (top - bottom) / (right - left) * maps.stretch))
+    height = max(2, round(_INTERFEROGRAM_PIXELS * (top - bottom) / (right - left) * maps.stretch))
     fine = RectBivariateSpline(maps.y, maps.x, thickness)(
-        np.linspace(bottom, top, height), np.linspace(left, right, _FINE)
+        np.linspace(bottom, top, height), np.linspace(left, right, _INTERFEROGRAM_PIXELS)
     )
     seen = colours(np.maximum(fine, 0.0), optics)
     return (255.0 * seen[::-1]).round().astype(np.uint8)

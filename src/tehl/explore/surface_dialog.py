@@ -8,7 +8,7 @@ from nicegui import ui
 from tehl.base.errors import InputError
 from tehl.explore.colour_map import heights_picture
 from tehl.explore.elements import Drawing, button, main_button
-from tehl.explore.files import LARGEST
+from tehl.explore.files import LARGEST_UPLOAD
 from tehl.explore.job_panel import JobPanel
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Heights, Look
@@ -31,7 +31,7 @@ class SurfaceDialog(JobPanel):
             ui.label("Measured surface").classes("dialog-title")
             upload = ui.upload(
                 label="choose or drop a map of heights",
-                max_file_size=LARGEST,
+                max_file_size=LARGEST_UPLOAD,
                 auto_upload=True,
                 on_rejected=lambda: self._say("larger than 50 MB; crop the map before"),
             )

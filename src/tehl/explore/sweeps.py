@@ -19,7 +19,7 @@ from tehl.studies.runner import StudyMonitor, run
 from tehl.studies.store import Memory
 
 _MOST_WORKERS = 4
-_GRACE = 3.0
+_GRACE_SECONDS = 3.0
 """Seconds for a stopped sweep to end."""
 
 
@@ -135,7 +135,7 @@ class Sweeps(Queue):
             if self._running is not None:
                 self._stop(self._running)
         if self._thread.is_alive():
-            self._thread.join(_GRACE)
+            self._thread.join(_GRACE_SECONDS)
         self._drop_pool()
 
 

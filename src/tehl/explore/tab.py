@@ -31,7 +31,7 @@ VIEWS = {
 }
 """Views of a contact, by name."""
 _UNDONE = 50
-_ROOM = 1.1
+_LEAST_COLOUR_RANGE = 1.1
 """Largest film with a colour over the central one, at least."""
 
 Listener = Callable[[str], None]
@@ -62,7 +62,7 @@ class Tab:
     that of the present contact has converged. ``latest`` is how the last solve ended.
     ``is_stepping`` while undo or redo takes another case.
 
-    ``tell`` is called with the topic of each change: "controls", "fault", "status", "picture",
+    ``notify`` is called with the topic of each change: "controls", "fault", "status", "picture",
     "numbers", "explained".
     """
 
@@ -87,7 +87,7 @@ class Tab:
         self._request = 0
         self._solved: tuple[ContactProblem, Shown] | None = None
 
-    def tell(self, topic: str) -> None:
+    def notify(self, topic: str) -> None:
         """Report a change."""
         for listener in self.listeners:
             listener(topic)
@@ -203,9 +203,9 @@ class Tab:
         had_fault, self.fault = self.fault is not None, None
         others, self.groups = rebuild or not self.groups, made
         if others:
-            self.tell("controls")
+            self.notify("controls")
         if had_fault:
-            self.tell("fault")
+            self.notify("fault")
         self.solve()
         return True
 
@@ -214,7 +214,7 @@ class Tab:
         paths = (item.path for group in self.groups for item in group.items)
         named = (one for one in paths if text.startswith(f"{one} = "))
         self.fault = Fault(text, next(named, path))
-        self.tell("fault")
+        self.notify("fault")
 
     # ---- the result
 
@@ -240,7 +240,7 @@ class Tab:
         if self.is_old:
             self.latest = None
             self._look()
-        self.tell("status")
+        self.notify("status")
 
     def close(self) -> None:
         """Cancel all solves, and report no more changes."""
@@ -252,7 +252,7 @@ class Tab:
         """Cancel what is being solved."""
         self.solver.cancel(self.owner)
         self.is_busy, self.note = False, "stopped"
-        self.tell("status")
+        self.notify("status")
 
     def _receive(self, number: int, problem: ContactProblem, message: Any) -> None:
         """Take a message of the worker; results of an older place of the slider are shown too."""
@@ -262,7 +262,7 @@ class Tab:
                 self._take(problem, message.shown)
         elif newest:
             self._read(message)
-        self.tell("status")
+        self.notify("status")
 
     def _take(self, problem: ContactProblem, found: Shown) -> None:
         """Take a result; a film that did not converge is not shown."""
@@ -275,14 +275,14 @@ class Tab:
         """Take what the worker says of the newest request."""
         if isinstance(message, Explained):
             self.explained = message
-            self.tell("explained")
+            self.notify("explained")
         elif isinstance(message, Note):
             self.note = message.text
         elif isinstance(message, TooCoarse):
             self.coarse = message.text
         elif isinstance(message, Failure):
             self.fault = Fault(self.files.hidden(message.text), again=message.again)
-            self.tell("fault")
+            self.notify("fault")
         elif isinstance(message, End):
             self.is_busy, self.note = False, ""
             self.coarse = self.coarse if self.is_moving else ""
@@ -294,8 +294,8 @@ class Tab:
         solved, shown = self._solved
         self.shown = scaled_by_formula(shown, solved, self.problem) if self.is_old else shown
         self._fit()
-        self.tell("picture")
-        self.tell("numbers")
+        self.notify("picture")
+        self.notify("numbers")
 
     # ---- comparing
 
@@ -304,22 +304,22 @@ class Tab:
         if self.shown is not None and not self.is_old:
             self.pinned = Pinned(CaseText(self.case.text), self.shown)
             self.held = True
-            self.tell("picture")
-            self.tell("numbers")
+            self.notify("picture")
+            self.notify("numbers")
 
     def unpin(self) -> None:
         """Stop comparing."""
         self.pinned, self.held = None, False
         self._fit()
-        self.tell("picture")
-        self.tell("numbers")
+        self.notify("picture")
+        self.notify("numbers")
 
     def hold(self, *, held: bool) -> None:
         """Hold the scales of colours, or fit them to each result."""
         if held != self.held:
             self.held = held
             self._fit()
-            self.tell("picture")
+            self.notify("picture")
 
     def show(self, view: str) -> None:
         """Choose what is shown."""
@@ -328,7 +328,7 @@ class Tab:
             self.solve()
         if view == "fringes" and self.pinned is not None and self.pinned.shown.fringes is None:
             self._complete(self.pinned)
-        self.tell("picture")
+        self.notify("picture")
 
     def _complete(self, pinned: Pinned) -> None:
         """Compute the interferogram of a pinned state, which the worker may still hold."""
@@ -338,7 +338,7 @@ class Tab:
                 return
             if isinstance(message, Part) and message.final:
                 self.pinned = replace(pinned, shown=message.shown)
-                self.tell("picture")
+                self.notify("picture")
             elif isinstance(message, Failure):
                 self._blame(f"the interferogram of the pinned state: {message.text}", "")
 
@@ -363,7 +363,8 @@ class Tab:
                 for ends in zip(wanted["lines"], self.limits.get("lines", (0.0, 0.0)), strict=True)
             )
             before, central = self.limits.get("film"), shown.maps.central
-            if before is not None and before.high < _ROOM * central:  # it would have no colour
+            # a film above the range would have no colour
+            if before is not None and before.high < _LEAST_COLOUR_RANGE * central:
                 self.limits["film"] = before.joined(wanted["film"])
             wanted |= {key: value for key, value in self.limits.items() if key in wanted}
             wanted["lines"] = film, pressure  # lines stay in their frame

@@ -31,7 +31,7 @@ else:
     plots = lazy("tehl.plots")
     pages = lazy("tehl.report.page")
 
-_PIXELS = 220
+_PREVIEW_POINTS = 220
 """Points of a preview along an axis."""
 
 
@@ -166,7 +166,7 @@ class Look:
         del desk
         found = preview(Map(**self.settings))
         seen = view(found)
-        rows, columns = (max(1, count // _PIXELS) for count in seen.values.shape)
+        rows, columns = (max(1, count // _PREVIEW_POINTS) for count in seen.values.shape)
         values = np.ascontiguousarray(seen.values[::rows, ::columns]) * 1e9
         (left, right), (bottom, top) = seen.window
         numbers_of = found.statistics

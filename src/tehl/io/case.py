@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 
 _LONG_KEY = re.compile(r"(?m)^[\s\[]*(?:[^\s.,=#]+\s*\.\s*){100}")
 """A key of more than a hundred parts."""
-_LARGEST = 10**6
+_LARGEST_CASE = 10**6
 """Bytes of a case file."""
-_DEEPEST = 8
+_MOST_KEYS = 8
 """Parts of the key path of an override."""
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -68,7 +68,17 @@ def case_from_tables(
 ) -> tuple[ContactProblem, Options]:
     """Return problem and options of the parsed tables of a case, checked as those of a file.
 
-    Relative paths of measured surfaces begin in ``folder``, by default the working directory.
+    Parameters
+    ----------
+    tables : Mapping
+        As of the TOML of a case file; quantities are texts with a unit, or numbers in SI.
+    folder : Path or None
+        Where relative paths of measured surfaces begin; None is the working directory.
+
+    Raises
+    ------
+    InputError
+        If a key or a value is invalid, in one sentence.
     """
     physics = {key: value for key, value in tables.items() if key != NUMERICS}
     problem = _validated(ContactProblem, physics, prefix="", folder=folder)
@@ -143,7 +153,7 @@ def _text(path: Path) -> str:
         if named_pipe or stat.S_ISCHR(mode) or stat.S_ISBLK(mode) or stat.S_ISSOCK(mode):
             raise InputError("not a regular file, so not a case file")
         with path.open("rb") as file:
-            content = file.read(_LARGEST + 1)
+            content = file.read(_LARGEST_CASE + 1)
     except FileNotFoundError:
         raise InputError("case file does not exist") from None
     except OSError as error:
@@ -153,8 +163,8 @@ def _text(path: Path) -> str:
 
 def text_of(content: bytes) -> str:
     """Return the text of the content of a case file; an InputError if it is not one."""
-    if len(content) > _LARGEST:
-        raise InputError(f"larger than {_LARGEST // 10**6} MB, so not a case file")
+    if len(content) > _LARGEST_CASE:
+        raise InputError(f"larger than {_LARGEST_CASE // 10**6} MB, so not a case file")
     try:
         return content.decode(encoding_of(content))
     except UnicodeDecodeError:
@@ -229,7 +239,20 @@ def _kinds(notes: Iterable[Any]) -> Iterator[Quantity]:
 
 
 def with_settings(options: Options, settings: "Settings") -> Options:
-    """Return options with those of ``settings`` that are numerical; an InputError if invalid."""
+    """Return options with the numerical settings of a hint.
+
+    Parameters
+    ----------
+    options : Options
+        Not changed.
+    settings : Settings
+        Values by key path, such as ``numerics.points``; paths of other tables have no effect.
+
+    Raises
+    ------
+    InputError
+        If a value is invalid.
+    """
     tables: dict[str, Any] = {NUMERICS: options.model_dump(exclude_defaults=True)}
     for path, value in settings.items():
         tables = changed(tables, path, value)
@@ -242,9 +265,19 @@ def replaced_by(path: str) -> str:
 
 
 def change(tables: dict[str, Any], override: str) -> None:
-    """Apply one override ``key.path=value`` in place; raise an InputError if it is invalid.
+    """Apply one override to the tables of a case, in place.
 
-    The value ``false`` leaves out a table.
+    Parameters
+    ----------
+    tables : dict
+        Parsed case; missing tables on the path are added.
+    override : str
+        ``key.path=value``; the value ``false`` removes a table.
+
+    Raises
+    ------
+    InputError
+        If the override is invalid; the message has the form that is expected.
     """
     key, equals, text = (part.strip() for part in override.partition("="))
     names = key.split(".")
@@ -253,9 +286,9 @@ def change(tables: dict[str, Any], override: str) -> None:
         raise InputError(f"invalid override {shown(override)}: {expected}")
     if any("\ud800" <= letter <= "\udfff" for letter in override):
         raise InputError(f"invalid override {shown(override)}: not UTF-8 text")
-    if len(names) > _DEEPEST:
+    if len(names) > _MOST_KEYS:
         raise InputError(
-            f"invalid override {shown(override)}: {len(names)} parts; expected at most {_DEEPEST}"
+            f"invalid override {shown(override)}: {len(names)} parts; expected at most {_MOST_KEYS}"
         )
     node = tables
     for name in names[:-1]:

@@ -28,7 +28,15 @@ class Fingerprint(NamedTuple):
 
 
 def fingerprint(problem: ContactProblem, options: Options) -> Fingerprint:
-    """Return the fingerprint of case, options and measured surfaces, however they are written."""
+    """Return the fingerprint of case, options and measured surfaces, however they are written.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Its measured surfaces count by the content of their files.
+    options : Options
+        All of them count, also those that do not change the result.
+    """
     maps = [one.fingerprint for one in _maps(problem)]
     content = [problem.model_dump(mode="json"), options.model_dump(mode="json"), maps]
     text = json.dumps(content, sort_keys=True)
@@ -68,12 +76,19 @@ def write_checkpoint(path: str | Path, owner: Fingerprint, arrays: Mapping[str, 
 def read_checkpoint(path: str | Path, owner: Fingerprint) -> dict[str, NDArray[Any]]:
     """Return the state of a run from its checkpoint, numbers and arrays by name.
 
+    Parameters
+    ----------
+    path : str or Path
+        File that a run wrote beside its output.
+    owner : Fingerprint
+        Of the run that continues.
+
     Raises
     ------
     InputError
         If the file does not exist, or is of another version of this package or of another case.
     FileFormatError
-        If it is not a whole checkpoint.
+        If it is not a complete checkpoint.
     """
     if not Path(path).is_file():
         raise InputError(f"checkpoint {path} does not exist")
@@ -83,7 +98,7 @@ def read_checkpoint(path: str | Path, owner: Fingerprint) -> dict[str, NDArray[A
         version, case = (str(word) for word in arrays.pop(_LABEL))
     except Exception:  # a flipped bit makes zip and array headers raise anything
         raise FileFormatError(
-            f"{path} is not a whole checkpoint: remove it to start again"
+            f"{path} is not a complete checkpoint: remove it to start again"
         ) from None
     if version != owner.version:
         raise InputError(

@@ -221,6 +221,13 @@ def _json(model: BaseModel) -> str:
 def rebuild(arrays: Arrays, attrs: Attributes) -> Solution | TransientSolution:
     """Return the result of arrays as :func:`variables` and attributes as :func:`attributes` gives.
 
+    Parameters
+    ----------
+    arrays : dict
+        In SI, by name.
+    attrs : dict
+        Case, state and kind of the result as JSON.
+
     Raises
     ------
     KeyError, ValueError
@@ -292,7 +299,15 @@ class Reader:
     finite: bool
 
     def part(self, kind: type[Part], table: Table) -> Part | None:
-        """Return a part of the result, None if the file does not have its first array."""
+        """Return a part of the result, None if the file does not have its first array.
+
+        Parameters
+        ----------
+        kind : type
+            Dataclass of the part, with the fields of ``table``.
+        table : Table
+            Columns of the part; without its first one the part is absent.
+        """
         return kind(**self.columns(table)) if table[0].name in self.arrays else None
 
     def columns(self, table: Table) -> dict[str, Array]:

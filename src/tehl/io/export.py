@@ -109,7 +109,20 @@ def _arrays(result: Solution | TransientSolution) -> dict[str, NDArray[Any]]:
 
 
 def ending_of(result: Solution | TransientSolution, to: str | None) -> str:
-    """Return the usual ending of a file of format ``to``; raise an InputError if it is unknown."""
+    """Return the usual ending of a file of an export format.
+
+    Parameters
+    ----------
+    result : Solution or TransientSolution
+        Its kind decides which formats are known.
+    to : str or None
+        Name of the format, such as "csv"; None is reported as missing.
+
+    Raises
+    ------
+    InputError
+        If the format is unknown or missing; the message lists the known ones.
+    """
     known = _FORMATS[_kind(result)]
     for ending, kind in known.items():
         if kind == to:

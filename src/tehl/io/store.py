@@ -152,6 +152,13 @@ def load(path: str | Path) -> Solution | TransientSolution:
 def load_as(kind: type[Kind], path: str | Path) -> Kind:
     """Read a result of one kind, `Result` or `TransientResult`.
 
+    Parameters
+    ----------
+    kind : type
+        `Solution` or `TransientSolution`.
+    path : str or Path
+        A file that :func:`save` wrote.
+
     Raises
     ------
     InputError

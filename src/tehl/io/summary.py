@@ -62,7 +62,15 @@ def plain(value: Any) -> Any:
 
 
 def from_block(kind: type[Part], block: Any) -> Part | None:
-    """Return the dataclass that a block of a stored summary holds; None if it does not fit."""
+    """Return the dataclass that a block of a stored summary holds; None if it does not fit.
+
+    Parameters
+    ----------
+    kind : type
+        Dataclass with the keys of the block.
+    block : object
+        Parsed JSON of any kind, None if the summary has no such block.
+    """
     try:
         return TypeAdapter(kind).validate_python(block)
     except ValueError:  # missing, or written by another program
@@ -98,7 +106,7 @@ def _block_of(blocks: Block, path: str) -> Block:
 
 
 def _steady(result: Solution) -> Block:
-    content = blocks_of(Following(result))
+    content = _blocks_of(Following(result))
     if result.uncertainty:
         order = list(content)  # of blocks; in a block by name
         certified = sorted(
@@ -109,7 +117,7 @@ def _steady(result: Solution) -> Block:
     return content
 
 
-def blocks_of(found: Any, only: str = "") -> Block:
+def _blocks_of(found: Any, only: str = "") -> Block:
     """Return the blocks of a summary, those without an owner as None.
 
     Parameters
@@ -143,7 +151,7 @@ def _add(content: Block, path: str, owner: Any, rows: list[Quantity]) -> None:
 
 def roughness_block(found: RoughFilm) -> Block:
     """Return the block ``roughness`` of a summary from the numbers of a rough film."""
-    block: Block = blocks_of(SimpleNamespace(rough=found), "roughness")["roughness"]
+    block: Block = _blocks_of(SimpleNamespace(rough=found), "roughness")["roughness"]
     return block
 
 

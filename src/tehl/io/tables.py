@@ -68,12 +68,12 @@ ASPERITIES = (
     *_table(
         "",
         ("rms", "asperity_rms", "m", "standard deviation of their heights"),
-        ("balance", "asperity_oil_balance", "1", "oil made or lost, of that which enters"),
+        ("balance", "asperity_oil_balance", "1", "mass-balance error, over the inflow"),
     ),
 )
 CONTACT = (
     *_table("y x", ("pressure", "contact_pressure", "Pa", "pressure of contact beside the oil")),
-    *_table("", ("balance", "contact_oil_balance", "1", "oil made or lost, of that through it")),
+    *_table("", ("balance", "contact_oil_balance", "1", "mass-balance error, over the throughput")),
 )
 OIL = (
     *_table("y x", ("fill", "fill", "1", "part of the gap that is oil")),

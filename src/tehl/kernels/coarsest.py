@@ -16,7 +16,9 @@ from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import STEADILY, Stencil, flux_weights
 
-NEGLIGIBLE = 1e-6  # part of a change of the pressure that asperities take by the film it moves
+NEGLIGIBLE_COARSE_PART = (
+    1e-6  # part of a change of the pressure that asperities take by the film it moves
+)
 HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)
 
 
@@ -161,7 +163,7 @@ def _find_carrying(state: Coarse, system: CoarseSystem, shape: tuple[int, int], 
             wet = state.p[here] != 0.0 or system.residual[here] < 0.0
             work.dry[here] = not wet or system.frozen[here] > 0
             carried = state.stiffness[here] * system.influence[here, here]
-            if not work.dry[here] or carried > NEGLIGIBLE:
+            if not work.dry[here] or carried > NEGLIGIBLE_COARSE_PART:
                 work.free[count] = here
                 count += 1
     return count

@@ -126,7 +126,7 @@ def typing_rule(symbol: Any, rule: Callable[..., Any]) -> None:
     infer_global(symbol)(Template)
 
 
-def equal_constants(kind: Any, value: float) -> Any:
+def _equal_constants(kind: Any, value: float) -> Any:
     """Return a vector of equal constants."""
     return ir.Constant(kind, [value] * LANES)
 
@@ -138,7 +138,7 @@ def as_lanes(context: Any, builder: Any, kind: Any, value: Any) -> Any:
     number = context.cast(builder, value, kind, types.float64)
     empty = ir.Constant(VECTOR, ir.Undefined)
     first = builder.insert_element(empty, number, ir.Constant(INT, 0))
-    return builder.shuffle_vector(first, empty, equal_constants(ir.VectorType(INT, LANES), 0))
+    return builder.shuffle_vector(first, empty, _equal_constants(ir.VectorType(INT, LANES), 0))
 
 
 @lower_cast(types.Number, LanesType)
@@ -188,8 +188,8 @@ def _comparison(predicate: str) -> Callable[..., Any]:
 
 
 def _power_of_two(builder: Any, shifted: Any) -> Any:
-    biased = builder.add(builder.bitcast(shifted, LONGS), equal_constants(LONGS, 1023))
-    return builder.bitcast(builder.shl(biased, equal_constants(LONGS, 52)), VECTOR)
+    biased = builder.add(builder.bitcast(shifted, LONGS), _equal_constants(LONGS, 1023))
+    return builder.bitcast(builder.shl(biased, _equal_constants(LONGS, 52)), VECTOR)
 
 
 def _largest(builder: Any, x: Any) -> Any:

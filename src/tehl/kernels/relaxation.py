@@ -38,9 +38,9 @@ from tehl.kernels.reynolds import (
 Span = tuple[int, int]
 
 PASSES = 6  # of the policy iteration, before clipping
-FREE, CAVITATED, KEPT, WAS_CAVITATED = 0.0, 1.0, 2.0, 3.0  # states of a node
-NEGLIGIBLE = 1e-2  # part of a change of the pressure that asperities take by the film it moves
-MARGIN = 3  # empty nodes on both sides of a line
+FREE, CAVITATED, FROZEN, WAS_CAVITATED = 0.0, 1.0, 2.0, 3.0  # states of a node
+NEGLIGIBLE_PART = 1e-2  # part of a change of the pressure that asperities take by the film it moves
+EMPTY_MARGIN_NODES = 3  # empty nodes on both sides of a line
 CHUNK = 32  # nodes copied at a time, so that they stay in the first cache
 LOADED = ("east", "across", "mass_p", "rho", "dipole", "rest", "p", "state", "hardness")
 EAST, ACROSS, MASS_P, RHO, DIPOLE, REST, P, STATE, HARDNESS = range(9)
@@ -91,7 +91,7 @@ class LineRelaxation(NamedTuple):
 
 def workspace(nx: int) -> tuple[Array, Records, Array]:
     """Return ``rest, nodes, cells`` of a `LineRelaxation` for lines of ``nx`` nodes."""
-    cells = np.zeros((nx + 2 * MARGIN, len(FIELDS), LANES))
+    cells = np.zeros((nx + 2 * EMPTY_MARGIN_NODES, len(FIELDS), LANES))
     return np.zeros((LANES, nx)), cells.reshape(-1).view(NODE).view(np.recarray), cells
 
 
@@ -163,7 +163,7 @@ def _load_line(
     eps_x, eps_y, cells, rest = film.eps_x, film.eps_y, relaxation.cells, relaxation.rest
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
     for i in range(span[0], span[1]):
-        at = i + MARGIN
+        at = i + EMPTY_MARGIN_NODES
         cells[at, EAST, lane] = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
         across = both(stencil, eps_y[j, i], eps_y[j + 1, i])
         across = half_y * (across + both(stencil, eps_y[j, i], eps_y[south, i]))
@@ -174,7 +174,7 @@ def _load_line(
         cells[at, REST, lane] = rest[lane, i]
         cells[at, P, lane] = film.p[j, i]
         state = CAVITATED if film.p[j, i] == 0.0 and rest[lane, i] >= 0.0 else FREE
-        cells[at, STATE, lane] = KEPT if relaxation.frozen[j, i] else state
+        cells[at, STATE, lane] = FROZEN if relaxation.frozen[j, i] else state
         if relaxation.touches:
             cells[at, RHO, lane] *= film.opening[j, i]
             cells[at, HARDNESS, lane] = film.stiffness[j, i]
@@ -190,7 +190,7 @@ def _load_flux(
     (j, lane), cells, partial, second = place, relaxation.cells, film.partial, film.second
     rate, half = stencil.w0 - stencil.w2, 0.5 * stencil.cx
     for i in range(max(span[0], 1), span[1]):
-        at, far = i + MARGIN, max(i - 2, 0)
+        at, far = i + EMPTY_MARGIN_NODES, max(i - 2, 0)
         if i > 1 and second[j, i] and second[j, i - 1]:  # most nodes: a film far around
             cells[at, OWN, lane] = 1.5 * rate
             cells[at, UPSTREAM, lane] = -2.0 * rate
@@ -211,7 +211,7 @@ def _load_flux(
 def _leave_out(cells: Array, lane: int, span: Span) -> None:
     """Fix the nodes of a lane that holds no line."""
     for i in range(span[0], span[1]):
-        cells[i + MARGIN, STATE, lane] = KEPT
+        cells[i + EMPTY_MARGIN_NODES, STATE, lane] = FROZEN
 
 
 @helper
@@ -274,7 +274,7 @@ def _fill_row(
     here.east_2 = b_ww * p[4] + b_w * p[3] + b_c * p[2] + beyond.dipole * change
     if relaxation.touches:
         around = far.hardness + west.hardness + here.hardness + east.hardness
-        if any_of(around * p[0] > NEGLIGIBLE):
+        if any_of(around * p[0] > NEGLIGIBLE_PART):
             hardness = a_ww * far.hardness, a_w * west.hardness
             _add_asperities(relaxation, i, (*hardness, a_c * here.hardness, a_e * east.hardness))
 
@@ -333,7 +333,7 @@ def band_solve(nodes: Records, low: int, high: int) -> None:
         node.u = 0.0
     for i in range(low, high + 1):
         _eliminate(nodes, i)
-    for i in range(high + MARGIN, low + MARGIN - 1, -1):
+    for i in range(high + EMPTY_MARGIN_NODES, low + EMPTY_MARGIN_NODES - 1, -1):
         here = nodes[i]
         here.u = here.u - (here.up_1 * nodes[i + 1].u + here.up_2 * nodes[i + 2].u)
 
@@ -344,7 +344,7 @@ def _cavitate(nodes: Records, i: int) -> tuple[bool, bool]:
 
     Return whether there was one, and whether any lane was cavitated already.
     """
-    here = nodes[i + MARGIN]
+    here = nodes[i + EMPTY_MARGIN_NODES]
     negative = (here.state == FREE) & (here.u < -here.p)
     cavitated = here.state == CAVITATED
     here.state = where(negative, CAVITATED, where(cavitated, WAS_CAVITATED, here.state))
@@ -391,7 +391,7 @@ def _store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span)
     """Apply the solution of a line: points at once, dipoles to ``delta``."""
     (j, lane), p = place, film.p
     for i in range(span[0], span[1]):
-        u = relaxation.cells[i + MARGIN, U, lane]
+        u = relaxation.cells[i + EMPTY_MARGIN_NODES, U, lane]
         moved = 0.0 if u <= -p[j, i] else p[j, i] + relaxation.omega_point * u
         dipole = relaxation.omega_dipole * max(u, -p[j, i])
         relaxation.delta[j, i] = dipole if relaxation.kind[j, i] else 0.0
@@ -415,15 +415,15 @@ def set_up(
 ) -> None:
     """Fill the systems of a batch of lines, chunk by chunk; ``batch``: first line and count."""
     (first, count), (low, high), nx = batch, span, film.p.shape[1]
-    end = min(high + MARGIN, nx - 1)
-    for start in range(max(low - MARGIN, 0), end, CHUNK):
+    end = min(high + EMPTY_MARGIN_NODES, nx - 1)
+    for start in range(max(low - EMPTY_MARGIN_NODES, 0), end, CHUNK):
         stop = min(start + CHUNK, end)
         for lane in range(count):
             _load_line(film, stencil, relaxation, (first + 2 * lane, lane), (start, stop))
         for lane in range(count, LANES):
             _leave_out(relaxation.cells, lane, (start, stop))
-        ready = high if stop == end else stop - MARGIN
-        for i in range(max(start - MARGIN + 1, low), ready + 1):
+        ready = high if stop == end else stop - EMPTY_MARGIN_NODES
+        for i in range(max(start - EMPTY_MARGIN_NODES + 1, low), ready + 1):
             _fill_band(relaxation, stencil, i)
 
 

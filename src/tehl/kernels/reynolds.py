@@ -20,7 +20,7 @@ from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
 
 STEADILY, IN_TIME = 1, 2
-SECOND, THIRD = 1, 2
+MARK_SECOND_ORDER, MARK_THIRD_ORDER = 1, 2
 """Marks of the nodes that pass on oil with second and with third order where it is conserved."""
 
 
@@ -131,7 +131,7 @@ def _subtract_wedge(
 
 
 @helper
-def third_at(stencil: Stencil, i: int) -> float:
+def _third_at(stencil: Stencil, i: int) -> float:
     """Return the weight of the third difference at the east face of column i."""
     return stencil.third if i < stencil.fore else 0.5 * stencil.third
 
@@ -150,7 +150,7 @@ def _subtract_third(
     mass = rho[j, 1] * h[j, 1]
     for i in range(1, end):
         after = rho[j, i + 1] * h[j, i + 1]
-        bent = third_at(stencil, i) * (after - 2.0 * mass + before)
+        bent = _third_at(stencil, i) * (after - 2.0 * mass + before)
         out[row, i] -= bent - curved
         before, mass, curved = mass, after, bent
 
@@ -197,9 +197,9 @@ def _beyond(film: Film, stencil: Stencil, node: tuple[int, int], before: float) 
     j, i = node
     mass = film.rho[j, i] * film.h[j, i]
     found = 0.5 * (mass - before)
-    if film.second[j, i] == THIRD:
+    if film.second[j, i] == MARK_THIRD_ORDER:
         curved = film.rho[j, i + 1] * film.h[j, i + 1] - 2.0 * mass + before
-        found += third_at(stencil, i) / (stencil.w0 - stencil.w2) * curved
+        found += _third_at(stencil, i) / (stencil.w0 - stencil.w2) * curved
     return found
 
 
@@ -225,8 +225,8 @@ def flux_weights(
     stencil : Stencil
         Weights of the differences.
     partial : (bool, bool, bool)
-        Whether nodes i, i - 1 and i - 2 are partly filled: what they hold is no function of their
-        film.
+        Whether nodes i, i - 1 and i - 2 are partly filled: the oil they hold does not follow from
+        their film.
     second : (bool, bool)
         Whether nodes i and i - 1 pass on oil with second order.
     i : int
@@ -309,7 +309,7 @@ def mark_second_order(film: Film, stencil: Stencil) -> None:
         if order > 2:
             for i in range(2, nx - 1):
                 if second[j, i] and not (partial[j, i] or partial[j, i + 1]):
-                    second[j, i] = THIRD
+                    second[j, i] = MARK_THIRD_ORDER
 
 
 @kernel

@@ -33,10 +33,12 @@ class Sample(NamedTuple):
         """Load the machine code from the cache; compile it if it is missing."""
         hints = get_type_hints(self.kernel.py_func, include_extras=True)
         hints.pop("return")
-        self.kernel.compile(tuple(type_of(hint, name, self.arrays) for name, hint in hints.items()))
+        self.kernel.compile(
+            tuple(_type_of(hint, name, self.arrays) for name, hint in hints.items())
+        )
 
 
-def type_of(hint: Any, name: str, arrays: dict[str, Any]) -> Any:
+def _type_of(hint: Any, name: str, arrays: dict[str, Any]) -> Any:
     """Return the type of an argument, or of a part of it.
 
     Parameters
@@ -57,10 +59,10 @@ def type_of(hint: Any, name: str, arrays: dict[str, Any]) -> Any:
         return NUMBERS[hint]
     fields = getattr(hint, "_fields", None)
     if fields is None:
-        parts = [type_of(part, name, arrays) for part in get_args(hint)]
+        parts = [_type_of(part, name, arrays) for part in get_args(hint)]
         return types.BaseTuple.from_types(parts)
     hints = get_type_hints(hint, include_extras=True)
-    return types.BaseTuple.from_types([type_of(hints[one], one, arrays) for one in fields], hint)
+    return types.BaseTuple.from_types([_type_of(hints[one], one, arrays) for one in fields], hint)
 
 
 def _axes(count: int, *names: str) -> dict[str, int]:

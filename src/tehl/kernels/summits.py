@@ -14,7 +14,7 @@ from tehl.kernels.lanes import LANES, any_of, greater, lesser, truncate, where
 from tehl.kernels.properties import Film, FlowTable, interpolated, line_properties, shape_line
 from tehl.kernels.raw import lanes, raw
 
-FOLLOWING, FOLLOWED, SHORT = 20, 0.01, 0.1
+MOST_ASPERITY_STEPS, LAST_STEP_OVER_SUM, SHORT_STEP_ROWS = 20, 0.01, 0.1
 """Newton's method for the pressure of dry asperities: most steps; last step over their sum; and
 rows of the table that a step moves, times the slope dP_a/dP if above one, below which the next one
 would be as small as that: within a row the slope changes by less than a fifth."""
@@ -152,12 +152,12 @@ def _followed(
     """
     (height, reach), (left, slope), table, more = place, law, laws.pressure, 0.0
     first, per_step = laws.grid[0], 1.0 / laws.grid[1]
-    for _ in range(FOLLOWING):
+    for _ in range(MOST_ASPERITY_STEPS):
         step = left / (1.0 - slope)
-        if abs(step) <= FOLLOWED * abs(more):
+        if abs(step) <= LAST_STEP_OVER_SUM * abs(more):
             break
         more += step
-        if abs(reach * per_step * step) * max(1.0, abs(slope)) < SHORT:
+        if abs(reach * per_step * step) * max(1.0, abs(slope)) < SHORT_STEP_ROWS:
             break
         x = (height + reach * more - first) * per_step
         pressure, rise = 0.0, 0.0

@@ -28,7 +28,7 @@ SERVE = (
     "import sys; sys.path.insert(0, sys.argv[1]); from tehl.kernels.warmup import serve; serve()"
 )
 PARTS = dict(zip(cache.PARTS, (ISOTHERMAL, COUPLED), strict=True))
-SLOWER = 2.0
+UNCOMPILED_FACTOR = 2.0
 """Expected times over those of the samples until the first kernel is compiled."""
 _LOG = logging.getLogger(__name__)
 
@@ -150,7 +150,7 @@ class Compilation:
 
     def _report(self) -> None:
         """Report progress; the time left follows from the pace of the kernels that are compiled."""
-        now, pace = time.monotonic(), self.spent / self.finished if self.done else SLOWER
+        now, pace = time.monotonic(), self.spent / self.finished if self.done else UNCOMPILED_FACTOR
         left = pace * (self.weight - self.finished) - sum(now - t for t in self.running.values())
         seconds = max(left, 0.0) / self.processes
         self.report(Progress(self.done, self.total, tuple(self.running), seconds))

@@ -41,7 +41,15 @@ class DowsonHigginson(DensityModel):
     """T_0 [K]."""
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K]."""
+        """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K].
+
+        Parameters
+        ----------
+        pressure : float or Array
+            Gauge pressure [Pa], above -1/saturation.
+        temperature : float or Array
+            Absolute [K]; the thermal loss of density is limited to `LARGEST_LOSS`.
+        """
         ratio = 1.0 + self.slope * pressure / (1.0 + self.saturation * pressure)
         if self.beta > 0:
             warmer = temperature - self.reference_temperature
@@ -58,7 +66,15 @@ class ConstantDensity(DensityModel):
     """Density [kg/m^3]."""
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return rho_0 [kg/m^3] in the shape of ``pressure`` and ``temperature``."""
+        """Return rho_0 [kg/m^3] in the shape of ``pressure`` and ``temperature``.
+
+        Parameters
+        ----------
+        pressure : float or Array
+            Of any value; decides the shape only.
+        temperature : float or Array
+            Of any value; decides the shape only.
+        """
         return self.rho_0 + 0.0 * (pressure + temperature)
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 from tehl.base.table import Table
 from tehl.base.typing import Array, np
 
-LARGEST_EXPONENT = 600.0
+LARGEST_LAW_EXPONENT = 600.0
 """``exp`` of more would overflow; so thick a film is a solid for every purpose."""
 
 Values = TypeVar("Values", float, Array)
@@ -67,7 +67,15 @@ class ViscosityModel(Law):
         raise NotImplementedError
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
+        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
+
+        Parameters
+        ----------
+        pressure : float or Array
+            Gauge pressure [Pa].
+        temperature : float or Array
+            Absolute [K]; a number, or of the shape of ``pressure``.
+        """
         raise NotImplementedError
 
 
@@ -85,7 +93,15 @@ class ExponentialFall(ViscosityModel):
         return self.gamma or 0.0
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
+        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
+
+        Parameters
+        ----------
+        pressure : float or Array
+            Gauge pressure [Pa].
+        temperature : float or Array
+            Absolute [K]; without ``gamma`` it has no effect.
+        """
         growth = self._growth(pressure)
         if self.gamma:
             growth = growth - self.gamma * (temperature - self.reference_temperature)
@@ -104,7 +120,15 @@ class DensityModel(Law):
         return self.density(0.0, temperature)
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K]."""
+        """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K].
+
+        Parameters
+        ----------
+        pressure : float or Array
+            Gauge pressure [Pa].
+        temperature : float or Array
+            Absolute [K]; a number, or of the shape of ``pressure``.
+        """
         raise NotImplementedError
 
 
@@ -129,10 +153,18 @@ def limited(values: Any, least: float, most: float = math.inf) -> Any:
 
 
 def exponential(eta_0: Any, exponent: Any) -> Any:
-    """Return ``eta_0 exp(exponent)`` without overflow, arrays written over ``exponent``."""
+    """Return ``eta_0 exp(exponent)`` without overflow, arrays written over ``exponent``.
+
+    Parameters
+    ----------
+    eta_0 : float or Array
+        Factor, a viscosity [Pa s].
+    exponent : float or Array
+        Limited to `LARGEST_LAW_EXPONENT` in size; an array is overwritten by the result.
+    """
     if isinstance(exponent, float):
-        return eta_0 * math.exp(limited(exponent, -LARGEST_EXPONENT, LARGEST_EXPONENT))
-    np.clip(exponent, -LARGEST_EXPONENT, LARGEST_EXPONENT, out=exponent)
+        return eta_0 * math.exp(limited(exponent, -LARGEST_LAW_EXPONENT, LARGEST_LAW_EXPONENT))
+    np.clip(exponent, -LARGEST_LAW_EXPONENT, LARGEST_LAW_EXPONENT, out=exponent)
     np.exp(exponent, out=exponent)
     exponent *= eta_0
     return exponent

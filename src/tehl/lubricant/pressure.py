@@ -19,7 +19,7 @@ NEEDED = (
     "estimates it from the viscosity"
 )
 """Message on a law without a pressure coefficient."""
-_LEAST, _MOST = 1e-3, 10.0
+_LEAST_VISCOSITY, _LARGEST_VISCOSITY = 1e-3, 10.0
 """Viscosities [Pa s] between which mineral oils were measured, roughly."""
 
 
@@ -54,7 +54,15 @@ Alpha = Annotated[
 
 
 def pressure_coefficient_of(alpha: float | str | None, viscosity: float) -> float:
-    """Return a stated pressure coefficient [1/Pa], or Wooster's of a ``viscosity`` [Pa s]."""
+    """Return a stated pressure coefficient [1/Pa], or Wooster's of a ``viscosity`` [Pa s].
+
+    Parameters
+    ----------
+    alpha : float, str or None
+        Stated coefficient [1/Pa]; a text selects Wooster's formula, None is zero.
+    viscosity : float
+        At ambient pressure and the inlet temperature [Pa s].
+    """
     return wooster(viscosity) if isinstance(alpha, str) else alpha or 0.0
 
 
@@ -72,9 +80,9 @@ def wooster(viscosity: float) -> float:
     .. [1] G. W. Stachowiak and A. W. Batchelor, Engineering Tribology, Butterworth-Heinemann,
        chapter 2: viscosity-pressure relationship, after Wooster.
     """
-    if not _LEAST <= viscosity <= _MOST:
+    if not _LEAST_VISCOSITY <= viscosity <= _LARGEST_VISCOSITY:
         raise ValueError(
             f'has alpha = "{ESTIMATED}" at a viscosity of {viscosity:.3g} Pa s, but mineral oils '
-            f"have {_LEAST:g} to {_MOST:g} Pa s: state alpha"
+            f"have {_LEAST_VISCOSITY:g} to {_LARGEST_VISCOSITY:g} Pa s: state alpha"
         )
     return (0.6 + 0.965 * math.log10(1e3 * viscosity)) * 1e-8

@@ -138,9 +138,14 @@ class Roelands(_RoelandsPressure):
         return self._theta(temperature) ** -self.temperature_index
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
+        """Return the viscosity [Pa s] at ``pressure`` and ``temperature``.
 
-        Arrays of one shape, or numbers; pressures must exceed -1.9e8 Pa.
+        Parameters
+        ----------
+        pressure : float or Array
+            Gauge pressure [Pa], above -1.9e8 Pa.
+        temperature : float or Array
+            Absolute [K]; a number, or of the shape of ``pressure``.
         """
         growth = pressure * PER_ROELANDS_PRESSURE
         growth += 1.0  # in place from here on: this is evaluated in each cycle

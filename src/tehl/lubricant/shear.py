@@ -20,15 +20,15 @@ LEAST_EYRING = 1e4
 """Eyring stress [Pa] below which a unit has been forgotten."""
 LEAST_LIMIT = 1e5
 """Least limiting stress [Pa], so that oil at ambient pressure is not without friction."""
-LARGEST_RATE = 1e8
+LARGEST_SHEAR_RATE = 1e8
 """Dimensionless shear rate up to which a table of ``ln F`` is needed."""
 
 _KNEE = 0.9999  # part of the limiting stress from which on ln F is a straight line
 _KNEE_RATE = -math.log1p(-_KNEE)
 _KNEE_LOG = math.log(_KNEE_RATE / _KNEE)
 _KNEE_SLOPE = 1.0 / ((1.0 - _KNEE) * _KNEE_RATE) - 1.0 / _KNEE
-_SMALL = 0.05  # below, the power series is the more accurate
-_STEPS = 100  # of Newton's method; it needs fewer than twenty
+_SERIES_LIMIT = 0.05  # below, the power series is the more accurate
+_MOST_NEWTON_STEPS = 100  # of Newton's method; it needs fewer than twenty
 
 
 class ShearModel(Law):
@@ -60,7 +60,15 @@ class ShearModel(Law):
         raise NotImplementedError
 
     def thinned(self, newtonian: float, pressure: float) -> float:
-        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa]."""
+        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa].
+
+        Parameters
+        ----------
+        newtonian : float
+            Viscosity times shear rate [Pa], not negative.
+        pressure : float
+            Decides the stress scale of the law [Pa].
+        """
         scale = self.stress_scale(pressure)
         return scale * self.stress_at(newtonian / scale)
 
@@ -121,11 +129,11 @@ class Eyring(ShearModel):
 
     def log_thinning(self, stress: Array) -> Array:
         """Return ln F at the dimensionless ``stress``."""
-        square = np.minimum(stress, _SMALL) ** 2
+        square = np.minimum(stress, _SERIES_LIMIT) ** 2
         series = square / 6.0 - square**2 / 180.0 + square**3 / 2835.0 - square**4 / 37800.0
-        large = np.maximum(stress, _SMALL)
+        large = np.maximum(stress, _SERIES_LIMIT)
         curve = large + np.log(-np.expm1(-2.0 * large) / (2.0 * large))
-        return np.where(stress < _SMALL, series, curve)
+        return np.where(stress < _SERIES_LIMIT, series, curve)
 
     def stress_at(self, rate: Values) -> Values:
         """Return the dimensionless stress at a dimensionless ``rate``."""
@@ -157,7 +165,7 @@ class Carreau(ShearModel):
     @property
     def largest_stress(self) -> float:
         """Return the dimensionless stress up to which a table of ln F is needed."""
-        return LARGEST_RATE * math.hypot(1.0, LARGEST_RATE) ** (self.exponent - 1.0)
+        return LARGEST_SHEAR_RATE * math.hypot(1.0, LARGEST_SHEAR_RATE) ** (self.exponent - 1.0)
 
     def stress_scale(self, pressure: Values) -> Values:
         """Return G [Pa] in the shape of ``pressure`` [Pa]."""
@@ -172,7 +180,7 @@ class Carreau(ShearModel):
         aim = np.log(np.maximum(stress, 1e-150))
         part = 1.0 - self.exponent
         log_rate = np.maximum(aim, aim / self.exponent)
-        for _ in range(_STEPS):
+        for _ in range(_MOST_NEWTON_STEPS):
             missing = aim - log_rate + 0.5 * part * np.logaddexp(0.0, 2.0 * log_rate)
             step = missing / (1.0 - part / (1.0 + np.exp(np.minimum(-2.0 * log_rate, 700.0))))
             log_rate = log_rate + step
@@ -232,7 +240,15 @@ class Limiting(ShearModel):
         return curve + _KNEE_SLOPE * np.maximum(stress - _KNEE, 0.0)
 
     def thinned(self, newtonian: float, pressure: float) -> float:
-        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa], below the limit."""
+        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa], below the limit.
+
+        Parameters
+        ----------
+        newtonian : float
+            Viscosity times shear rate [Pa], not negative.
+        pressure : float
+            Decides the limiting stress [Pa].
+        """
         limit = self.stress_scale(pressure)
         return -limit * math.expm1(-newtonian / limit)
 

@@ -55,7 +55,15 @@ class TaitDensity(DensityModel):
     """T_0 [K]."""
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K]."""
+        """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K].
+
+        Parameters
+        ----------
+        pressure : float or Array
+            Gauge pressure [Pa].
+        temperature : float or Array
+            Absolute [K]; decides the bulk modulus and the volume at ambient pressure.
+        """
         return self.rho_0 / _relative_volume(self, pressure, temperature)
 
 
@@ -108,7 +116,15 @@ class TaitDoolittle(ViscosityModel):
         return limited(volume - self._core(temperature), LEAST_FREE)
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
+        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
+
+        Parameters
+        ----------
+        pressure : float or Array
+            Gauge pressure [Pa].
+        temperature : float or Array
+            Absolute [K]; decides the occupied and the free volume.
+        """
         ratio = self._core(temperature) / self._free(pressure, temperature)
         return exponential(self.eta_0, self.B * (ratio - self.occupied / (1.0 - self.occupied)))
 

@@ -20,7 +20,9 @@ from tehl.lubricant.roelands import PER_ROELANDS_PRESSURE, ROELANDS_OFFSET, ROEL
 _FORTY, _HUNDRED = 313.15, 373.15  # [K]
 _SHIFT = 0.7  # [mm^2/s]
 _MM2_PER_S = 1e6
-_THICKEST = 12.0  # log10 of the largest kinematic viscosity [mm^2/s]: no oil flows so slowly
+_LARGEST_LOG_VISCOSITY = (
+    12.0  # log10 of the largest kinematic viscosity [mm^2/s]: no oil flows so slowly
+)
 
 
 class Walther(ViscosityModel):
@@ -100,7 +102,7 @@ class Walther(ViscosityModel):
     def temperature_coefficient_at(self, temperature: float) -> float:
         """Return ``-d ln eta / dT`` [1/K] at ambient pressure and ``temperature`` [K]."""
         log_shifted = self._log_shifted(temperature)
-        shifted = 10.0 ** min(log_shifted, _THICKEST)
+        shifted = 10.0 ** min(log_shifted, _LARGEST_LOG_VISCOSITY)
         fall = math.log(10.0) * log_shifted * self._slope / temperature
         loss = self.expansion / self._volume(temperature)
         return shifted / (shifted - _SHIFT) * fall + loss
@@ -125,7 +127,9 @@ class Walther(ViscosityModel):
         return limited(1.0 + self.expansion * (temperature - _FORTY), 0.1)
 
     def _ambient(self, temperature: Any) -> Any:
-        kinematic = 10.0 ** limited(self._log_shifted(temperature), 0.0, _THICKEST) - _SHIFT
+        kinematic = (
+            10.0 ** limited(self._log_shifted(temperature), 0.0, _LARGEST_LOG_VISCOSITY) - _SHIFT
+        )
         return kinematic / _MM2_PER_S * self._density / self._volume(temperature)
 
     def _span(self, temperature: Any) -> Any:
@@ -134,7 +138,15 @@ class Walther(ViscosityModel):
         return functions(ambient).log(ambient) + ROELANDS_OFFSET
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
+        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
+
+        Parameters
+        ----------
+        pressure : float or Array
+            Gauge pressure [Pa], above -1.9e8 Pa.
+        temperature : float or Array
+            Absolute [K]; decides the viscosity at ambient pressure by Walther's line.
+        """
         growth = (1.0 + PER_ROELANDS_PRESSURE * pressure) ** self.pressure_index - 1.0
         span = limited(self._span(temperature), 0.0)
         return exponential(self._ambient(temperature), span * growth)

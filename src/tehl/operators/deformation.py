@@ -28,7 +28,15 @@ class Deformation(Protocol):
     """Elastic deflection on one grid, as the film equation needs it."""
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``, both of the grid's shape."""
+        """Write the deflection under ``pressure`` to ``out``, both of the grid's shape.
+
+        Parameters
+        ----------
+        pressure : Array
+            P at the nodes [-], (ny, nx); zero on the edges.
+        out : Array
+            Overwritten by the deflection [-], (ny, nx).
+        """
         ...
 
 
@@ -39,7 +47,15 @@ class DirectDeformation:
         self.matrix = dense_matrix(grid.shape, grid.mirror, influence_of(grid, groups))
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``."""
+        """Write the deflection under ``pressure`` to ``out``.
+
+        Parameters
+        ----------
+        pressure : Array
+            P at the nodes [-], (ny, nx).
+        out : Array
+            Overwritten by the deflection [-], (ny, nx), contiguous.
+        """
         np.einsum("mk,k->m", self.matrix, pressure.ravel(), out=out.reshape(-1))
 
 
@@ -60,7 +76,15 @@ class FftDeformation:
         self.transform = np.zeros(self.spectrum.shape, complex)
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``."""
+        """Write the deflection under ``pressure`` to ``out``.
+
+        Parameters
+        ----------
+        pressure : Array
+            P at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
+        out : Array
+            Overwritten by the deflection [-], (ny, nx).
+        """
         ny, nx = pressure.shape
         self.padded[:ny, :nx] = pressure
         if self.mirror:
@@ -105,7 +129,15 @@ class LineDeformation:
         self.mirror = int(grid.mirror)
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``."""
+        """Write the deflection under ``pressure`` to ``out``.
+
+        Parameters
+        ----------
+        pressure : Array
+            P at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
+        out : Array
+            Overwritten by the deflection [-], (ny, nx).
+        """
         np.fft.rfft(pressure, self.period, out=self.transform)
         sum_across(self.transform, self.kernel, self.scratch, self.product, self.mirror)
         np.fft.irfft(self.product, self.period, out=self.convolved)

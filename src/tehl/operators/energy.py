@@ -32,9 +32,9 @@ class FilmState:
     Parameters
     ----------
     grid : Grid
-        The nodes.
+        Half of the domain if it is mirrored; rows are padded to full blocks.
     film : HeatedFilm
-        The contact.
+        Laws, solids and dimensionless numbers of the energy equation.
     wedge_order : int
         Order of the upstream differences.
     finest : bool
@@ -53,7 +53,7 @@ class FilmState:
         thorough: bool = False,
     ) -> None:
         self.grid, self.film, self.model = grid, film, film.model(grid, wedge_order)
-        self.fields = initial_fields(grid, film)
+        self.fields = _initial_fields(grid, film)
         self.surfaces = Surfaces(*(film.surface(grid, side) for side in film.sides))
         self.solids = Solids(grid, film.scaled, film.sides, film.flux_unit, finest=finest)
         modes = len(self.surfaces[0].decay)
@@ -212,7 +212,7 @@ class FilmState:
         self.model = self.model._replace(terms=terms)
 
 
-def initial_fields(grid: Grid, film: HeatedFilm) -> Fields:
+def _initial_fields(grid: Grid, film: HeatedFilm) -> Fields:
     """Return the fields of a film at rest, with temperatures linear across it.
 
     Steps at the walls would cause fluxes that later sweeps do not correct.
@@ -244,14 +244,14 @@ def pressure_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array,
     pressure : array of ``grid.shape``
         Dimensionless.
     """
-    slope_x = slope_along(pressure.T, grid.dx).T
-    slope_y = slope_along(pressure, groups.ellipticity * grid.dy)
+    slope_x = _slope_along(pressure.T, grid.dx).T
+    slope_y = _slope_along(pressure, groups.ellipticity * grid.dy)
     if grid.mirror:
         slope_y[0] = 0.0
     return slope_x, slope_y
 
 
-def slope_along(field: Array, spacing: float) -> Array:
+def _slope_along(field: Array, spacing: float) -> Array:
     """Return the derivative along the first axis, of second order; `numpy.gradient` is slower."""
     slope = np.empty_like(field)
     np.subtract(field[2:], field[:-2], out=slope[1:-1])

@@ -110,7 +110,15 @@ class FarField:
         self.weight = 8.0 * groups.lambda_bar / stretch * f * width
 
     def set_edges(self, pressure: Array, film: Array) -> None:
-        """Set the pressure on the edges for a ``film``, both of the shape of the grid."""
+        """Set the pressure on the edges for a film.
+
+        Parameters
+        ----------
+        pressure : Array
+            P [-], (ny, nx); its edge nodes are overwritten.
+        film : Array
+            H [-], (ny, nx), positive on the edges.
+        """
         for edge, amplitude in self.edges:
             pressure[edge] = amplitude / film[edge] ** 2
 

@@ -17,7 +17,7 @@ def flow_table(scaled: ScaledProblem) -> FlowTable:
     """Tabulate the laws of the lubricant at the inlet temperature.
 
     Cubic Hermite interpolation between 8192 pressures is accurate to 1e-6 (see the tests), and
-    kernels need not know the laws.
+    kernels are independent of the laws.
     """
     scales, lubricant = scaled.scales, scaled.problem.lubricant
     temperature = scales.temperature

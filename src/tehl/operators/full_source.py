@@ -15,7 +15,7 @@ from tehl.operators.influence import Influence
 
 NEAR = (4, 10)
 """Rows and columns from the source within which a cell is split: there the plume is narrow."""
-PARTS = 5
+PARTS_PER_SIDE = 5
 """Parts of a near cell along each side; odd, so that none has a corner on the axes."""
 
 
@@ -54,7 +54,7 @@ class FullSource:
         rows = np.arange(ny)
         columns = np.arange(2 * (nx - 1))
         columns = np.where(columns < nx, columns, columns - 2 * (nx - 1))
-        table = factor * point_source(rows, columns, cell, peclet)
+        table = factor * _point_source(rows, columns, cell, peclet)
         if line > 0.0:
             table[0] -= line * _line_cells(columns, cell[1])
         folded = np.minimum(np.arange(self.period[0]), self.period[0] - np.arange(self.period[0]))
@@ -71,7 +71,7 @@ class FullSource:
         return np.ascontiguousarray(convolved[:stored, :nx])
 
 
-def point_source(
+def _point_source(
     rows: IntArray, columns: IntArray, cell: tuple[float, float], peclet: float
 ) -> Array:
     """Return the integral of exp[-|B| (r - x sgn B)]/r over cells (rows, columns) from the source.
@@ -84,13 +84,15 @@ def point_source(
     table = whole(rows[:, None], columns[None, :]) * _plume(x, y, peclet)
     near_rows = np.flatnonzero(np.abs(rows) <= NEAR[0])
     near_columns = np.flatnonzero(np.abs(columns) <= NEAR[1])
-    part = Influence(cell[1] / PARTS, cell[0] / PARTS, 1.0)
-    offsets = np.arange(PARTS) - PARTS // 2
-    j = (PARTS * rows[near_rows][:, None] + offsets[None, :]).reshape(-1, 1)
-    i = (PARTS * columns[near_columns][:, None] + offsets[None, :]).reshape(1, -1)
-    x, y = np.float64(cell[1] / PARTS) * i, np.float64(cell[0] / PARTS) * j
+    part = Influence(cell[1] / PARTS_PER_SIDE, cell[0] / PARTS_PER_SIDE, 1.0)
+    offsets = np.arange(PARTS_PER_SIDE) - PARTS_PER_SIDE // 2
+    j = (PARTS_PER_SIDE * rows[near_rows][:, None] + offsets[None, :]).reshape(-1, 1)
+    i = (PARTS_PER_SIDE * columns[near_columns][:, None] + offsets[None, :]).reshape(1, -1)
+    x, y = np.float64(cell[1] / PARTS_PER_SIDE) * i, np.float64(cell[0] / PARTS_PER_SIDE) * j
     pieces = part(j, i) * _plume(x, y, peclet)
-    near = pieces.reshape(len(near_rows), PARTS, len(near_columns), PARTS).sum(axis=(1, 3))
+    near = pieces.reshape(len(near_rows), PARTS_PER_SIDE, len(near_columns), PARTS_PER_SIDE).sum(
+        axis=(1, 3)
+    )
     table[np.ix_(near_rows, near_columns)] = near
     return table
 

@@ -54,14 +54,22 @@ class HeatedFilm:
         Parameters
         ----------
         grid : Grid
-            The nodes.
+            For its mesh widths and symmetry.
         wedge_order : int
             Order of the upstream differences.
         """
-        return Model(self.across, self.laws, film_terms(grid, self.scaled, wedge_order))
+        return Model(self.across, self.laws, _film_terms(grid, self.scaled, wedge_order))
 
     def surface(self, grid: Grid, side: Side) -> Surface:
-        """Return one surface on a grid with its line source, if any."""
+        """Return one surface on a grid with its line source, if any.
+
+        Parameters
+        ----------
+        grid : Grid
+            Decides the number of nodes and the mesh width of the marching weights.
+        side : Side
+            Its bulk temperature [K] holds at first; without a line source the factor is zero.
+        """
         nx, ny = grid.nx, padded_rows(grid)
         factor = side.line_factor(self.scaled.scales, self.flux_unit) if side.marches else 0.0
         return Surface(
@@ -88,7 +96,7 @@ def film_energy(problem: ContactProblem) -> FilmEnergy:
     return problem.heat or FilmEnergy(temperature=inlet, bulk_1=inlet, bulk_2=inlet)
 
 
-def film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
+def _film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
     """Return the dimensionless numbers of the energy equation (docs/theory/thermal.md, scaled).
 
     Parameters
@@ -96,7 +104,7 @@ def film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
     grid : Grid
         Mesh widths and symmetry.
     scaled : ScaledProblem
-        The contact.
+        With the properties of the oil at the inlet.
     wedge_order : int
         Order of the upstream differences.
     """

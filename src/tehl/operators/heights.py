@@ -65,7 +65,20 @@ class Heights:
 
 
 def full_weighting(fine: Array, *, mirror: bool) -> Array:
-    """Return the 1-2-1 means of ``fine`` at every other node; constant beyond the edges."""
+    """Return the 1-2-1 means of ``fine`` at every other node; constant beyond the edges.
+
+    Parameters
+    ----------
+    fine : Array
+        Values of shape (2 my - 1, 2 mx - 1).
+    mirror : bool
+        Whether row 0 is the symmetry line y = 0.
+
+    Returns
+    -------
+    Array
+        Of shape (my, mx).
+    """
     padded = np.pad(fine, ((1, 1), (1, 1)), mode="edge")
     if mirror:
         padded[0] = padded[2]
@@ -74,7 +87,14 @@ def full_weighting(fine: Array, *, mirror: bool) -> Array:
 
 
 def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
-    """Return the heights of both surfaces on ``grid`` at time zero, None if both are smooth.
+    """Return the heights of both surfaces on a grid at time zero, None if both are smooth.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        With the roughness of both surfaces, in metres.
+    grid : Grid
+        Measured surfaces are filtered to its mesh widths.
 
     Raises
     ------
@@ -160,7 +180,7 @@ class MovingHeights:
     scaled : ScaledProblem
         Surfaces and motion.
     grid : Grid
-        The nodes.
+        Heights are filtered to its mesh widths.
     entrance : float or None
         Distance upstream at which roughness without end along x starts at time zero, and from which
         it moves in [a_x]; None starts it everywhere. Features, and maps with flat surroundings,

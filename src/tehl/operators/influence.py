@@ -45,6 +45,11 @@ class Influence:
         """Return the influence at offsets 0 to ``rows`` - 1 and 0 to ``columns`` - 1.
 
         The same as a call, but with one evaluation per corner, which four cells share.
+
+        Parameters
+        ----------
+        rows, columns : int
+            Number of offsets along y and along x.
         """
         u = self.dx * (np.arange(columns + 1.0) - 0.5)
         v = self.dy * (np.arange(rows + 1.0) - 0.5)[:, None]
@@ -64,7 +69,15 @@ def _corner(u: Array, v: Array) -> Array:
 
 
 def influence_of(grid: Grid, groups: Groups) -> Influence:
-    """Return the influence function of one cell of ``grid``."""
+    """Return the influence function of one cell of ``grid``.
+
+    Parameters
+    ----------
+    grid : Grid
+        Its mesh widths are in Hertz half-widths.
+    groups : Groups
+        Ellipticity kappa, by which widths along y are stretched, and the factor 2 Pi / pi.
+    """
     return Influence(grid.dx, groups.ellipticity * grid.dy, groups.deflection_factor)
 
 

@@ -41,7 +41,7 @@ def neighbour(
     Parameters
     ----------
     grid : Grid
-        The nodes.
+        On mirrored grids rows before y = 0 are those behind it.
     inner : array of bool, ``grid.shape``
         Nodes that are not on an edge.
     rows, columns : int
@@ -63,6 +63,13 @@ def neighbours_of(grid: Grid, stencil: Stencil) -> Neighbours:
     """Return the neighbours of the inner nodes.
 
     The second-order wedge of node 1 needs a node before the first: rho H continues linearly there.
+
+    Parameters
+    ----------
+    grid : Grid
+        On mirrored grids the row y = 0 is an inner one.
+    stencil : Stencil
+        Its ``w0``, ``w1``, ``w2`` are the weights of the wedge.
     """
     inner = np.zeros(grid.shape, bool)
     inner[(0 if grid.mirror else 1) : -1, 1:-1] = True
@@ -127,12 +134,23 @@ def rows(weights: Array) -> csr_matrix:
 
 
 def interpolation(fine: Grid, coarse: Grid) -> csr_matrix:
-    """Return the matrix of bilinear interpolation from a coarser grid of the same domain."""
-    lines = (between(nf, nc) for nf, nc in zip(fine.shape, coarse.shape, strict=True))
+    """Return the matrix of bilinear interpolation from a coarser grid of the same domain.
+
+    Parameters
+    ----------
+    fine, coarse : Grid
+        Of the same domain; the coarse one may be any number of halvings below.
+
+    Returns
+    -------
+    csr_matrix
+        Of shape (ny nx of ``fine``, ny nx of ``coarse``).
+    """
+    lines = (_between(nf, nc) for nf, nc in zip(fine.shape, coarse.shape, strict=True))
     return csr_matrix(kron(*lines))
 
 
-def between(fine: int, coarse: int) -> csr_matrix:
+def _between(fine: int, coarse: int) -> csr_matrix:
     """Return the matrix of linear interpolation from ``coarse`` to ``fine`` nodes of a line."""
     place = np.arange(fine) * ((coarse - 1) / (fine - 1))
     low = np.minimum(place.astype(int), coarse - 2)

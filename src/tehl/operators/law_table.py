@@ -19,21 +19,21 @@ from tehl.lubricant import Lubricant
 PER_PRESSURE = 5.1e-9
 LARGEST_PRESSURE = 8.0
 ROWS = 96
-COLDER, HOTTER = 60.0, 700.0
-COLDEST = 200.0
+KELVIN_BELOW_INLET, KELVIN_ABOVE_INLET = 60.0, 700.0
+COLDEST_TEMPERATURE = 200.0
 POLE = -60.0
 """Pole of the variable 1/(T - POLE) [K]: accurate for laws in 1/T and in T."""
 RISE = 400.0
 STRESSES = 2048
 LARGEST_STRESS = 1000.0
 DIFFERENCE = 0.05
-SAMPLES = 48
+FIT_TEMPERATURES = 48
 """Temperatures at which the polynomials are fitted."""
-TOLERANCE = 2e-6
-THICK = 40.0
+FIT_TOLERANCE = 2e-6
+LARGEST_FITTED_LOG_VISCOSITY = 40.0
 """ln eta up to which the polynomials meet the tolerance."""
-HOT, FAINT = 300.0, 1e-4
-"""Rise above the inlet [K] beyond which laws without a good fit get the weight `FAINT`."""
+HOT_RISE, FAINT_WEIGHT = 300.0, 1e-4
+"""Rise above the inlet [K] beyond which laws without a good fit get the weight `FAINT_WEIGHT`."""
 SOLID = 300.0
 """ln eta above which the viscosity is cut off: the film is effectively solid."""
 
@@ -52,8 +52,8 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
     """
     per_scale = PER_PRESSURE * scales.hertz_pressure
     rows = np.linspace(0.0, np.log1p(per_scale * LARGEST_PRESSURE), ROWS)
-    coldest = max(scales.temperature - COLDER, COLDEST)
-    hottest = scales.temperature + HOTTER
+    coldest = max(scales.temperature - KELVIN_BELOW_INLET, COLDEST_TEMPERATURE)
+    hottest = scales.temperature + KELVIN_ABOVE_INLET
     ends = 1.0 / (coldest - POLE), 1.0 / (hottest - POLE)
     middle, half = 0.5 * (ends[0] + ends[1]), 0.5 * (ends[0] - ends[1])
 
@@ -71,14 +71,16 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
         return lubricant.density.density(pressure, temperature) / scales.density
 
     thinning, per_stress = thinning_table(lubricant)
-    unit = np.cos(np.pi * (np.arange(SAMPLES) + 0.5) / SAMPLES)
+    unit = np.cos(np.pi * (np.arange(FIT_TEMPERATURES) + 0.5) / FIT_TEMPERATURES)
     kelvin = POLE + 1.0 / (middle + half * unit)
     rise = (
         0.5 * (coldest + hottest) + 0.5 * (hottest - coldest) * unit - scales.temperature
     ) / RISE
 
     def thin(values: Array) -> Array:
-        return _known(kelvin - scales.temperature) / (1.0 + (values / THICK) ** 8)
+        return _known(kelvin - scales.temperature) / (
+            1.0 + (values / LARGEST_FITTED_LOG_VISCOSITY) ** 8
+        )
 
     def known(values: Array) -> Array:
         return _known(RISE * rise) * np.ones_like(values)
@@ -102,22 +104,22 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
         per_stress=per_stress,
         last_row=ROWS - 2,
         last_stress=STRESSES - 2,
-        gentle=gentle_stress(lubricant),
+        newtonian_limit=newtonian_limit(lubricant),
         newtonian=int(lubricant.shear.is_newtonian),
         uniform=int(lubricant.shear.yields_as_a_whole),
     )
 
 
-def gentle_stress(lubricant: Lubricant) -> float:
+def newtonian_limit(lubricant: Lubricant) -> float:
     """Return the dimensionless stress below which ln F is less than the tolerance."""
     stress = np.geomspace(1e-6, 1.0, 241)
-    counts = lubricant.shear.log_thinning(stress) > TOLERANCE
+    counts = lubricant.shear.log_thinning(stress) > FIT_TOLERANCE
     return float(stress[max(int(np.argmax(counts)) - 1, 0)]) if counts.any() else 1.0
 
 
 def _known(warmer: Array) -> Array:
     """Return the fit weights of temperature rises [K]: small beyond those of films."""
-    return np.where(warmer < HOT, 1.0, FAINT)
+    return np.where(warmer < HOT_RISE, 1.0, FAINT_WEIGHT)
 
 
 def _terms(
@@ -147,8 +149,8 @@ def _terms(
         return np.asarray(np.einsum("rct,rt->rc", scaled, weight * values), np.float64)
 
     values = law(rows[:, None], nodes[None, :])
-    misfit = np.abs(fit(rows) @ power.T - values)[np.abs(values) < THICK]
-    method = weighted if np.max(misfit) > TOLERANCE else fit
+    misfit = np.abs(fit(rows) @ power.T - values)[np.abs(values) < LARGEST_FITTED_LOG_VISCOSITY]
+    method = weighted if np.max(misfit) > FIT_TOLERANCE else fit
     slope = 8 * (method(rows + d) - method(rows - d)) - method(rows + 2 * d) + method(rows - 2 * d)
     return np.stack([method(rows), slope / (12 * DIFFERENCE)], axis=1)
 

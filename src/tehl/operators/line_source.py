@@ -16,8 +16,8 @@ import numpy as np
 
 from tehl.base.typing import Array
 
-STEP = 0.4
-"""Step of the trapezoidal rule in ln s; its relative error is 2 exp(-pi^2/(2 STEP)) = 1e-5."""
+LOG_QUADRATURE_STEP = 0.4
+"""Step d of the trapezoidal rule in ln s; its relative error is 2 exp(-pi^2/(2 d)) = 1e-5."""
 
 
 class History(NamedTuple):
@@ -61,11 +61,18 @@ def history(nodes: int, spacing: float) -> History:
 
     ``1/sqrt(t) = 2/sqrt(pi) int exp(y - t exp(2y)) dy`` for t of 1 to ``nodes`` mesh widths; the
     slowest exponentials, which have hardly decayed, are lumped into one of the same first moment.
+
+    Parameters
+    ----------
+    nodes : int
+        Nodes along x, the longest distance that the exponentials cover.
+    spacing : float
+        Mesh width [a_x].
     """
     low, high = -0.5 * np.log(nodes) - 3.0, 1.3
-    y = np.arange(low, high + STEP, STEP)
-    weight, rate = 2.0 / np.sqrt(np.pi) * STEP * np.exp(y), np.exp(2.0 * y)
-    ratio = np.exp(-STEP)
+    y = np.arange(low, high + LOG_QUADRATURE_STEP, LOG_QUADRATURE_STEP)
+    weight, rate = 2.0 / np.sqrt(np.pi) * LOG_QUADRATURE_STEP * np.exp(y), np.exp(2.0 * y)
+    ratio = np.exp(-LOG_QUADRATURE_STEP)
     lump = weight[0] * ratio / (1.0 - ratio)
     lump_rate = weight[0] * rate[0] * ratio**3 / (1.0 - ratio**3) / lump
     weight, rate = np.concatenate([[lump], weight]), np.concatenate([[lump_rate], rate])

@@ -62,7 +62,13 @@ def contact_mean(x: Array, y: Array, field: Array) -> float:
 
 
 def is_inside(x: Array, y: Array) -> BoolArray:
-    """Return which nodes lie in the loaded zone, (ny, nx)."""
+    """Return which nodes lie in the loaded zone, (ny, nx).
+
+    Parameters
+    ----------
+    x, y : Array
+        Nodes along each axis in Hertz half-widths, (nx,) and (ny,).
+    """
     return np.add.outer(y**2, x**2) <= RADIUS**2
 
 

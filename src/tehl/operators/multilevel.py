@@ -22,13 +22,13 @@ from tehl.operators.influence import Influence, dense_matrix
 
 ALONG, ACROSS = 8, 2
 """Patch half-widths on the finest grid, along the axis that is halved and across it."""
-FAR = 40
+LUMPING_DISTANCE = 40
 """Nodes beyond the patch of which the corrections are lumped."""
-SMALLEST = 400
+DIRECT_SUM_NODES = 400
 """Nodes at or below which the sum is direct."""
 PAD = 24
 """Ghost rows and columns of the work arrays on each side."""
-LARGEST_GROWTH = 10
+LARGEST_PATCH_GROWTH = 10
 """Most nodes by which the patch grows: it stays within the ghost rows."""
 STEPS = (1, 3, 5)
 WEIGHTS = (150.0 / 256.0, -25.0 / 256.0, 3.0 / 256.0)
@@ -64,11 +64,27 @@ class RowHalving:
     folds: Array
 
     def gather(self, fine: Stage, coarse: Stage) -> None:
-        """Restrict the sources: P_c = I^T P."""
+        """Restrict the sources: P_c = I^T P.
+
+        Parameters
+        ----------
+        fine : Stage
+            Grid whose ``source`` is read.
+        coarse : Stage
+            Grid with half the rows; its ``source`` is overwritten.
+        """
         summation.gather_rows(fine.source, fine.box, coarse.source, coarse.box)
 
     def spread(self, fine: Stage, coarse: Stage) -> None:
-        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P."""
+        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P.
+
+        Parameters
+        ----------
+        fine : Stage
+            Grid whose ``total`` is overwritten, from its ``source`` and the coarse sums.
+        coarse : Stage
+            Grid with half the rows, with its ``total``.
+        """
         grids = (fine.box, coarse.total, coarse.box, fine.total)
         summation.spread_rows(fine.source, self.patch, self.folds, *grids)
 
@@ -81,12 +97,28 @@ class ColumnHalving:
     columns: summation.Columns
 
     def gather(self, fine: Stage, coarse: Stage) -> None:
-        """Restrict the sources: P_c = I^T P."""
+        """Restrict the sources: P_c = I^T P.
+
+        Parameters
+        ----------
+        fine : Stage
+            Grid whose ``source`` is read.
+        coarse : Stage
+            Grid with half the columns; its ``source`` is overwritten.
+        """
         summation.split_columns(fine.source, fine.box, self.columns)
         summation.gather_columns(self.columns, fine.box, coarse.source, coarse.box)
 
     def spread(self, fine: Stage, coarse: Stage) -> None:
-        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P."""
+        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P.
+
+        Parameters
+        ----------
+        fine : Stage
+            Grid whose ``total`` is overwritten; :meth:`gather` must have been called for it.
+        coarse : Stage
+            Grid with half the columns, with its ``total``.
+        """
         grids = (fine.box, coarse.total, coarse.box, fine.total)
         summation.spread_columns(self.columns, self.patch, *grids)
 
@@ -115,11 +147,11 @@ class MultilevelDeformation:
         self.stages = [_stage(0, ny - 1, 0, nx - 1, grid.mirror)]
         self.halvings: list[RowHalving | ColumnHalving] = []
         stride, halved = [1, 1], [0, 0]
-        while _count(self.stages[-1].box) > SMALLEST:
-            axis, fine = finer_axis(influence, stride), self.stages[-1]
+        while _count(self.stages[-1].box) > DIRECT_SUM_NODES:
+            axis, fine = _finer_axis(influence, stride), self.stages[-1]
             # an error on a coarse grid weighs as much as one on the finest: the patch grows
-            growth = min(2 * halved[axis], LARGEST_GROWTH)
-            patch = patch_corrections(influence, (axis, stride[0], stride[1]), growth)
+            growth = min(2 * halved[axis], LARGEST_PATCH_GROWTH)
+            patch = _patch_corrections(influence, (axis, stride[0], stride[1]), growth)
             self.stages.append(_coarser(fine.box, axis))
             self.halvings.append(_halve(patch, axis, fine, self.stages[-1]))
             stride[axis] *= 2
@@ -130,7 +162,15 @@ class MultilevelDeformation:
         self.flat = np.zeros(nodes[0] * nodes[1])
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``."""
+        """Write the deflection under ``pressure`` to ``out``.
+
+        Parameters
+        ----------
+        pressure : Array
+            P at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
+        out : Array
+            Overwritten by the deflection [-], (ny, nx).
+        """
         finest, last = self.stages[0], self.stages[-1]
         finest.load(pressure)
         steps = list(zip(self.halvings, self.stages[:-1], self.stages[1:], strict=True))
@@ -142,7 +182,7 @@ class MultilevelDeformation:
         out[:] = finest.nodes(finest.total)
 
 
-def finer_axis(influence: Influence, stride: list[int]) -> int:
+def _finer_axis(influence: Influence, stride: list[int]) -> int:
     """Return the axis with the smaller mesh width, which is halved next.
 
     The interpolation error along an axis decays with the distance in mesh widths of that axis; this
@@ -176,7 +216,7 @@ def _count(box: Box) -> int:
     return (box.j1 - box.j0 + 1) * (box.i1 - box.i0 + 1)
 
 
-def patch_corrections(influence: Influence, step: tuple[int, int, int], growth: int) -> Array:
+def _patch_corrections(influence: Influence, step: tuple[int, int, int], growth: int) -> Array:
     """Return the kernel less its interpolation at offsets along and across the halved axis.
 
     Parameters
@@ -195,9 +235,9 @@ def patch_corrections(influence: Influence, step: tuple[int, int, int], growth: 
     """
     axis, row_stride, column_stride = step
     reach, width = ALONG + growth + 1, ACROSS + growth + 1
-    nodes = np.arange(reach + FAR)
+    nodes = np.arange(reach + LUMPING_DISTANCE)
     along = np.arange(nodes.size + STEPS[-1] + 0.0)[:, None]
-    across = np.arange(width + FAR + 0.0)[None, :]
+    across = np.arange(width + LUMPING_DISTANCE + 0.0)[None, :]
     rows, columns = (along, across) if axis == 0 else (across, along)
     kernel = influence(rows * row_stride, columns * column_stride)
     missed = kernel[nodes]

@@ -15,8 +15,8 @@ from tehl.estimate.duration import components
 from tehl.roughness import AnyRoughness, Roughness
 from tehl.roughness.resolution import Resolution
 
-_COUNT = 513
-_LEAST = 1e-13
+_SAMPLES_PER_AXIS = 513
+_FLAT_SQ = 1e-13
 """Sq below which a surface counts as flat [m]."""
 _MOST_WINDOWS = 8
 
@@ -34,7 +34,7 @@ def resolution_of(problem: ContactProblem, mesh: tuple[float, float]) -> Resolut
     Parameters
     ----------
     problem : ContactProblem
-        The contact.
+        Its surfaces are sampled within the Hertz half-widths.
     mesh : (float, float)
         Mesh widths along x and y [m].
 
@@ -75,14 +75,21 @@ def _one(
 
 
 def sample_of(roughness: AnyRoughness, problem: ContactProblem) -> Sample:
-    """Return places where ``roughness`` lies in the contact, or passes it in a transient run.
+    """Return places where a surface lies in the contact, or passes it in a transient run.
 
     They are uniform but for random shifts, so that no wave is aliased to a constant.
+
+    Parameters
+    ----------
+    roughness : AnyRoughness
+        Surface at time zero; of several positions the one with the largest Sq counts.
+    problem : ContactProblem
+        Its Hertz half-widths bound the sample [m].
     """
     half = (problem.hertz.half_width_x, problem.hertz.half_width_y)
-    shifts = np.random.default_rng(0).random((2, _COUNT))
+    shifts = np.random.default_rng(0).random((2, _SAMPLES_PER_AXIS))
     x, y = (
-        width * (2.0 * (np.arange(_COUNT) + shift) / _COUNT - 1.0)
+        width * (2.0 * (np.arange(_SAMPLES_PER_AXIS) + shift) / _SAMPLES_PER_AXIS - 1.0)
         for width, shift in zip(half, shifts, strict=True)
     )
     samples = [Sample(x[None, :] + centre, y[:, None]) for centre in _centres(roughness, problem)]
@@ -102,8 +109,8 @@ def _centres(roughness: AnyRoughness, problem: ContactProblem) -> list[float]:
 
 def _sq(roughness: Roughness, place: Sample) -> float:
     found = float(np.std(_heights(roughness, place)))
-    return found if found > _LEAST else 0.0
+    return found if found > _FLAT_SQ else 0.0
 
 
 def _heights(roughness: Roughness, place: Sample) -> Array:
-    return np.broadcast_to(roughness.height(*place), (_COUNT, _COUNT))
+    return np.broadcast_to(roughness.height(*place), (_SAMPLES_PER_AXIS, _SAMPLES_PER_AXIS))

@@ -14,7 +14,7 @@ from tehl.operators.influence import Influence
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
 """Weights of rho H of a node and of its upstream neighbours in the wedge, by its order [1/dx]."""
-REACH = 8
+INFLUENCE_NODES = 8
 """Nodes along a line in the influence of one node, as the line relaxation uses it."""
 
 
@@ -26,7 +26,7 @@ def steady_stencil(
     Parameters
     ----------
     grid : Grid
-        The nodes.
+        Its mesh widths are in Hertz half-widths.
     groups : Groups
         The ellipticity scales the differences along y.
     wedge_order : {1, 2, 3}
@@ -51,18 +51,33 @@ def steady_stencil(
 
 
 def conductance(stencil: Stencil, here: Array, there: Array) -> Array:
-    """Return the conductance of the faces between pairs of nodes."""
+    """Return the conductance of the faces between pairs of nodes.
+
+    Parameters
+    ----------
+    stencil : Stencil
+        Takes the geometric mean if the wedge has third order, the arithmetic one otherwise.
+    here, there : Array
+        eps = rho H^3/(eta lambda) [-] at the nodes on both sides of each face, of one shape.
+    """
     found: Array = np.sqrt(here * there) if stencil.third > 0.0 else 0.5 * (here + there)
     return found
 
 
 def step_stencil(stencil: Stencil, time_step: float) -> Stencil:
-    """Return the weights of ``stencil`` in a time step of ``time_step`` [a_x / u_m].
+    """Return the weights of the Reynolds equation in a time step.
 
     Wedge and squeeze are one derivative of rho H along the mean motion, second-order backward:
     3/2 of rho H here and now, -2 and 1/2 of it one and two steps before at the nodes upstream
     (docs/theory/numerics-transient.md). Only the first is unknown. Its weight is the same on all
     grids, which take the same time step.
+
+    Parameters
+    ----------
+    stencil : Stencil
+        Weights of the steady equation on the grid.
+    time_step : float
+        Step [a_x / u_m].
     """
     conserves = IN_TIME if stencil.conserves else 0
     stencil = stencil._replace(third=0.0)
@@ -70,7 +85,15 @@ def step_stencil(stencil: Stencil, time_step: float) -> Stencil:
 
 
 def upstream(field: Array, nodes: int) -> Array:
-    """Return ``field``, (ny, nx), ``nodes`` upstream of each node; linear before the first node."""
+    """Return a field upstream of each node; linear before the first node.
+
+    Parameters
+    ----------
+    field : Array
+        Nodal values, (ny, nx).
+    nodes : int
+        Distance along x in mesh widths, at least one.
+    """
     shifted = np.empty_like(field)
     shifted[:, nodes:] = field[:, :-nodes]
     before = np.arange(-nodes, 0.0)
@@ -126,16 +149,27 @@ def steady_flux(film: Film, held: Array, spacing: float, order: int) -> Array:
 def line_influence(
     influence: Influence, parts: tuple[float, float] = (0.25, 0.25)
 ) -> tuple[Array, Array]:
-    """Return the film along a line per unit change of one node, and of a dipole, (`REACH`,) each.
+    """Return the film along a line per unit change of one node, and of a dipole.
 
-    A dipole raises one node and lowers its neighbours by ``parts`` of that, along x and along y:
-    its far field decays fast, so that it changes the film locally (Venner and Lubrecht 2000,
-    chapter 6).
+    A dipole raises one node and lowers its neighbours: its far field decays fast, so that it
+    changes the film locally (Venner and Lubrecht 2000, chapter 6).
+
+    Parameters
+    ----------
+    influence : Influence
+        Of one cell of the grid.
+    parts : (float, float)
+        By which each neighbour along x and along y is lowered, over the change of the node.
+
+    Returns
+    -------
+    point, dipole : Array
+        At offsets from zero along the line, (`INFLUENCE_NODES`,).
     """
     along, aside = parts
-    line = influence(0, slice(0, REACH + 1))
-    beside = influence(1, slice(0, REACH))
-    point = line[:REACH]
-    west = line[[1, *range(REACH - 1)]]
+    line = influence(0, slice(0, INFLUENCE_NODES + 1))
+    beside = influence(1, slice(0, INFLUENCE_NODES))
+    point = line[:INFLUENCE_NODES]
+    west = line[[1, *range(INFLUENCE_NODES - 1)]]
     dipole = point - along * (west + line[1:]) - 2.0 * aside * beside
     return point.copy(), dipole

@@ -17,10 +17,10 @@ from tehl.contact.summits import (
     mean_gap,
 )
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.summits import LEAST, MOST
+from tehl.estimate.summits import LAST_SEPARATION, LEAST_SEPARATION
 from tehl.kernels.summits import AsperityLaws
 
-STEP = 0.02
+TABLE_SEPARATION_STEP = 0.02
 """Difference of the separations at which the laws are tabulated, over sigma."""
 LEAST_OPENING = 0.01
 """Least slope of the mean gap by the separation. Between planes that cross, below a gap of 0.003
@@ -53,7 +53,7 @@ class AsperityTable:
     @property
     def sigma(self) -> float:
         """Standard deviation of the heights [-]."""
-        return float(self.laws.grid[1]) / STEP
+        return float(self.laws.grid[1]) / TABLE_SEPARATION_STEP
 
     @property
     def is_anisotropic(self) -> bool:
@@ -100,14 +100,14 @@ def _scaled(
     if part:
         laws = laws | _of_sliding(law, stamp, part)
     units = {"pressure": pressure, "gap": unit, "channel": unit}
-    separations = LEAST + STEP * np.arange(float(len(laws["gap"])))
+    separations = LEAST_SEPARATION + TABLE_SEPARATION_STEP * np.arange(float(len(laws["gap"])))
     overlap = laws["gap"][:, 0] - separations
     touching = np.nonzero((laws["pressure"][:, 0] > NO_PRESSURE) | (overlap > NO_OVERLAP))[0]
-    apart = separations[touching[-1]] + STEP
+    apart = separations[touching[-1]] + TABLE_SEPARATION_STEP
     return AsperityTable(
         laws=AsperityLaws(
             **{name: units.get(name, 1.0) * table for name, table in laws.items()},
-            grid=np.array([LEAST, STEP, apart]) * unit,
+            grid=np.array([LEAST_SEPARATION, TABLE_SEPARATION_STEP, apart]) * unit,
         ),
         separations=separations * unit,
     )
@@ -160,7 +160,7 @@ def _of_patch(law: SurfacePatch, stamp: object) -> Tables:
 
 def _opening(gap: Array) -> Array:
     """Return a table of the mean gap that is linear where its slope would be too small."""
-    least = LEAST_OPENING * STEP
+    least = LEAST_OPENING * TABLE_SEPARATION_STEP
     first = int(np.argmax(gap[:, 1] >= least))
     gap[:first, 0] = gap[first, 0] - least * np.arange(first, 0, -1)
     gap[:first, 1] = least
@@ -169,6 +169,9 @@ def _opening(gap: Array) -> Array:
 
 def _tabulated(curve: Callable[[Array], Array]) -> Array:
     """Return a curve over the gap and its slope times the step, (n, 2)."""
-    gap, d = np.arange(LEAST, MOST + STEP, STEP), 0.1 * STEP
+    gap, d = (
+        np.arange(LEAST_SEPARATION, LAST_SEPARATION + TABLE_SEPARATION_STEP, TABLE_SEPARATION_STEP),
+        0.1 * TABLE_SEPARATION_STEP,
+    )
     rise = 8.0 * (curve(gap + d) - curve(gap - d)) - (curve(gap + 2 * d) - curve(gap - 2 * d))
-    return np.stack([curve(gap), rise / (12.0 * d) * STEP], axis=1)
+    return np.stack([curve(gap), rise / (12.0 * d) * TABLE_SEPARATION_STEP], axis=1)

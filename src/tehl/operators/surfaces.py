@@ -27,7 +27,7 @@ LEAST_LINE = 2.0
 """Solid Peclet number from which a line source is marched: below, it has little of the full one."""
 COARSENED_FROM = 128
 """Intervals from which the full source is summed on every second node: its field is smooth."""
-TOLERANCE, ITERATIONS = 0.02, 30
+SURFACE_TOLERANCE, SURFACE_ITERATIONS = 0.02, 30
 """Of the coupled surface temperatures after each sweep; the next sweep improves them again."""
 
 
@@ -72,13 +72,29 @@ class Side:
         return self.conductivity > 0.0 and (self.form == "full" or not self.marches)
 
     def line_factor(self, scales: Scales, flux_unit: float) -> float:
-        """Return the rise per dimensionless flux integrated over the root of the distance [K]."""
+        """Return the rise per dimensionless flux integrated over the root of the distance [K].
+
+        Parameters
+        ----------
+        scales : Scales
+            For the Hertz half-width along x [m].
+        flux_unit : float
+            Heat flux [W/m^2] of the dimensionless flux one.
+        """
         effusivity = np.pi * self.conductivity * self.capacity * self.speed
         return float(flux_unit * np.sqrt(scales.half_width_x / effusivity))
 
 
 def sides(scaled: ScaledProblem, heat: FilmEnergy) -> tuple[Side, Side]:
-    """Return both solids."""
+    """Return both solids.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        With the materials and the speeds of both surfaces.
+    heat : FilmEnergy
+        With the bulk temperatures [K] and the form of the source.
+    """
     problem, scales = scaled.problem, scaled.scales
     motion = problem.motion
     return (
@@ -109,9 +125,9 @@ class Solids:
     Parameters
     ----------
     grid : Grid
-        The nodes.
+        Its cells are the sources.
     scaled : ScaledProblem
-        Units.
+        For the half-widths [m] and the temperature rise per flux.
     both : (Side, Side)
         The solids.
     flux_unit : float
@@ -244,7 +260,9 @@ class Solids:
         right = np.concatenate([m.ravel() for m in misfits if m is not None])
         size = right.size
         operator = LinearOperator((size, size), matvec=respond, dtype=np.float64)
-        solution, _ = gmres(operator, right, rtol=TOLERANCE, restart=ITERATIONS, maxiter=1)
+        solution, _ = gmres(
+            operator, right, rtol=SURFACE_TOLERANCE, restart=SURFACE_ITERATIONS, maxiter=1
+        )
         return dict(zip(given, solution.reshape(len(given), *shape), strict=True))
 
     def _coarse(self, field: Array) -> Array:

@@ -57,6 +57,14 @@ class Trail:
 
 
 def lag_of(steps: float, first: int) -> trail.Lag:
-    """Return the weights of the time ``steps`` ago: a parabola through three levels."""
+    """Return the weights of an earlier time: a parabola through three time levels.
+
+    Parameters
+    ----------
+    steps : float
+        How long ago, in time steps.
+    first : int
+        Newest of the three levels, in time steps ago.
+    """
     s = steps - first
     return trail.Lag(first, 0.5 * (s - 1.0) * (s - 2.0), s * (2.0 - s), 0.5 * s * (s - 1.0))

@@ -7,10 +7,17 @@ from tehl.estimate.grid import Grid
 
 
 def refine(pressure: Array, fine: Grid) -> Array:
-    """Return ``pressure`` interpolated to ``fine``: cubic, not negative, zero on the edges.
+    """Return a pressure interpolated to a finer grid: cubic, not negative, zero on the edges.
 
     Full multigrid needs an interpolation of higher order than the second-order discretisation
     (Trottenberg, Oosterlee and Schüller 2001, section 2.6).
+
+    Parameters
+    ----------
+    pressure : Array
+        P on the grid with twice the mesh widths [-].
+    fine : Grid
+        Decides whether row 0 is the symmetry line.
     """
     rows = _cubic_along_x(pressure)
     if fine.mirror:  # two mirrored rows make the symmetry line an inner one

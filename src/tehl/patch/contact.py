@@ -22,7 +22,7 @@ from scipy.sparse.csgraph import connected_components
 
 from tehl.base.typing import Array
 
-TOLERANCE, MOST = 1e-7, 2000
+PATCH_TOLERANCE, MOST_ITERATIONS = 1e-7, 2000
 """Relative change of the pressure at which the iteration ends, and most iterations."""
 
 
@@ -93,7 +93,7 @@ def pressed(
 
     p = np.full(heights.shape, pressure) if start is None else start * (pressure / start.mean())
     step, before, restart = np.zeros(heights.shape), 1.0, True
-    for _ in range(MOST):
+    for _ in range(MOST_ITERATIONS):
         gap, touching = deflection(p) - heights, p > 0.0
         gap -= gap[touching].mean()
         size = float((gap[touching] ** 2).sum())
@@ -114,7 +114,7 @@ def pressed(
         after *= pressure / after.mean()
         error = float(np.abs(after - p).mean()) / pressure
         p = after
-        if error < TOLERANCE:
+        if error < PATCH_TOLERANCE:
             gap = deflection(p) - heights
             gap -= gap[p > 0.0].mean()
             return DryContact(pressure=p, gap=np.where(p > 0.0, 0.0, np.maximum(gap, 0.0)))

@@ -15,11 +15,11 @@ from tehl.base.typing import Array
 from tehl.patch.contact import pressed
 from tehl.patch.flow import flow_through
 
-LARGEST = 192
+LARGEST_PATCH_NODES = 192
 """Most points of a patch along x and y: of a larger one the middle is taken."""
 FLOW = 128
 """Most points along x and y for the flow: of a finer gap every second point, and so on."""
-FIRST, MORE, CLOSED = 3e-5, 1.2, 0.05
+FIRST_LOAD, LOAD_FACTOR, LAST_MEAN_GAP = 3e-5, 1.2, 0.05
 """Mean pressure over E* and slope of the first load, factor of the next one, and mean gap over Sq
 of the last."""
 FLOWS = 3
@@ -95,11 +95,16 @@ class PatchCurves:
 
 
 def periodic_patch(heights: Array, *, fits: bool) -> Array:
-    """Return the middle of a patch about its mean, at most `LARGEST` points along x and y.
+    """Return the middle of a patch about its mean, continued periodically.
 
-    It is continued by its mirror image unless its own edges fit together.
+    Parameters
+    ----------
+    heights : Array
+        (ny, nx) [m]; at most `LARGEST_PATCH_NODES` points along x and y are taken.
+    fits : bool
+        Whether opposite edges fit together; otherwise the mirror image is added along x and y.
     """
-    (ny, nx), most = heights.shape, LARGEST
+    (ny, nx), most = heights.shape, LARGEST_PATCH_NODES
     low_y, low_x = max(ny - most, 0) // 2, max(nx - most, 0) // 2
     z = heights[low_y : low_y + most, low_x : low_x + most]
     z = z - z.mean()
@@ -129,14 +134,14 @@ def patch_curves(z: Array, pixel: tuple[float, float]) -> PatchCurves:
     stride = max(1, -(-max(z.shape) // FLOW))
     rows: list[tuple[float, ...]] = []
     flows: list[tuple[float, ...]] = []
-    pressure, start = FIRST * slope, None
+    pressure, start = FIRST_LOAD * slope, None
     while True:
         try:
             found = pressed(z, pixel, pressure, start)
         except ArithmeticError as error:
             raise InputError(f"asperities.map: {error}; a lambda_s removes spikes") from None
         gap = found.mean_gap / sigma
-        if gap < CLOSED:
+        if gap < LAST_MEAN_GAP:
             break
         number = found.spots / (z.size * pixel[0] * pixel[1])
         if len(rows) % FLOWS == 0:
@@ -145,7 +150,7 @@ def patch_curves(z: Array, pixel: tuple[float, float]) -> PatchCurves:
             factors = (flow.along ** (1.0 / 3.0), flow.carried)
             flows.append((gap, flow.across / flow.along, *(one / mean for one in factors)))
         rows.append((gap, found.mean_pressure, found.area, number))
-        start, pressure = found.pressure, MORE * pressure
+        start, pressure = found.pressure, LOAD_FACTOR * pressure
     gaps, load, area, number = np.array(rows[::-1]).T
     at, *others = np.array(flows[::-1]).T
     inside = np.clip(gaps, at[0], at[-1])

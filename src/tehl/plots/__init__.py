@@ -100,9 +100,14 @@ INTERFEROGRAMS: Pictures = {
 
 
 def pictures_of(result: Solution | TransientSolution, smooth: Solution | None = None) -> Pictures:
-    """Return the functions that draw ``result``, by name, in the order of drawing.
+    """Return the functions that draw a result, by name, in the order of drawing.
 
-    ``smooth`` is the smooth reference run on the same grid, for pictures of ripples.
+    Parameters
+    ----------
+    result : Solution or TransientSolution
+        What it has decides which pictures there are.
+    smooth : Solution or None
+        Smooth reference run on the same grid, for pictures of ripples.
     """
     if isinstance(result, TransientSolution):
         return {
@@ -147,9 +152,19 @@ def _of_oil(result: Solution) -> Pictures:
 
 
 def chosen(pictures: Pictures, names: Iterable[str]) -> Pictures:
-    """Return the named ones of ``pictures``, all without names.
+    """Return the named pictures, all without names.
 
-    Raises InputError if a name is not among them.
+    Parameters
+    ----------
+    pictures : dict
+        Functions that draw, by name.
+    names : iterable of str
+        Wanted pictures in their order; none takes all.
+
+    Raises
+    ------
+    InputError
+        If a name is not among the pictures.
     """
     wanted = list(dict.fromkeys(names))
     for name in wanted:
@@ -205,6 +220,16 @@ def save_all(
 
 
 def save_picture(picture: Figure, path: Path, *, dpi: int) -> None:
-    """Write a picture in the format of the extension of ``path``, whole or not at all."""
+    """Write a picture in the format of the extension of ``path``, whole or not at all.
+
+    Parameters
+    ----------
+    picture : Figure
+        Any figure of matplotlib.
+    path : Path
+        Its extension is the format, such as .png, .svg or .pdf.
+    dpi : int
+        Pixels per inch of bitmaps.
+    """
     with replacing(path) as temporary:
         picture.savefig(temporary, dpi=dpi, format=path.suffix[1:].lower())

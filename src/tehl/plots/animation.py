@@ -31,7 +31,7 @@ from tehl.plots.transient import CentreLines, time_unit
 from tehl.result.transient import TransientSolution
 
 FORMATS = (".gif", ".mp4", ".html")
-MOST = 200
+MOST_MOMENTS = 200
 """Largest number of moments in an animation of the line y = 0 alone."""
 _UPPER, _LOWER = (0.13, 0.41, 0.69, 0.51), (0.13, 0.07, 0.75, 0.255)
 """Axes of map and lines: left, bottom, width and height in parts of the picture."""
@@ -169,7 +169,9 @@ class Movie:
     def __init__(self, run: TransientSolution, *, dpi: int = 100) -> None:
         self.run, count = run, len(run.history.time)
         has_fields = run.frames.step.size >= 2
-        shown = np.unique(np.linspace(0, count - 1, min(count, MOST)).round().astype(np.int64))
+        shown = np.unique(
+            np.linspace(0, count - 1, min(count, MOST_MOMENTS)).round().astype(np.int64)
+        )
         self.steps = run.frames.step if has_fields else shown
         self.picture = figure(run, (6.2, 7.4 if has_fields else 3.4))
         self.picture.set_dpi(dpi)

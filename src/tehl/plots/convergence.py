@@ -18,7 +18,7 @@ _CURVES = (
     ("load_error", "load error", "^-", GREEN),
 )
 _HEAT_CURVE = ("temperature_change", "change of T per cycle, right", "D-", "0.35")
-_ROOM = 0.09
+_LABELLED_PART = 0.09
 """Part of all cycles from which on a grid has room for its number of nodes above."""
 
 
@@ -29,6 +29,15 @@ def residual_history(
 
     The axis is logarithmic, with one in kelvin at the right for a thermal run; vertical lines
     separate the grids.
+
+    Parameters
+    ----------
+    result : Solution
+        Converged or not; its ``history`` has the cycles.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
     """
     axes = single(result, (7.0, 4.6), ax=ax, title=title)
     axes.set(xlabel="cycle", ylabel="residual, change of P, load error [-]", yscale="log")
@@ -79,6 +88,6 @@ def _separate_grids(axes: Axes, grids: list[tuple[int, int]]) -> None:
     for start, end in pairwise([*starts, len(grids)]):
         if start:
             axes.axvline(start + 0.5, color="0.6", lw=0.8, ls=":")
-        if end - start >= _ROOM * len(grids) or len(starts) == 1:
+        if end - start >= _LABELLED_PART * len(grids) or len(starts) == 1:
             place, nodes = (start + 0.6, 1.0), "{}×{}".format(*grids[start])
             axes.annotate(nodes, place, xycoords=("data", "axes fraction"), va="bottom", fontsize=7)

@@ -34,8 +34,8 @@ MAP: dict[str, Any] = {"shading": "gouraud", "rasterized": True}
 PLAIN: dict[str, Any] = {"fontsize": 8, "frameon": False}
 """Style of a small legend."""
 _ALARM: dict[str, Any] = {"color": "white", "backgroundcolor": "#b3001b", "weight": "bold"}
-_LONGEST = 5.8
-_SLENDER = 6.0
+_LONGEST_SIDE = 5.8
+_SLENDER_PICTURE = 6.0
 _DRAWN = 1.6
 """Largest height over width, or width over height, of a map as drawn."""
 
@@ -108,7 +108,15 @@ def single(
 
 
 def empty(ax: Axes | None, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
-    """Return ``ax``, or the axes of a new figure without a title."""
+    """Return the given axes, or those of a new figure without a title.
+
+    Parameters
+    ----------
+    ax : Axes or None
+        Returned as they are if given.
+    size : (float, float)
+        Width and height of a new figure [inch].
+    """
     return Picture(figsize=size, layout="constrained").add_subplot() if ax is None else ax
 
 
@@ -170,7 +178,7 @@ def map_axes(
 def _map_size(result: Solution) -> tuple[float, float]:
     """Return width and height of the figure of a map [inch]."""
     ratio = shape(result)
-    longest = 4.9 if 0.5 < ratio < 2.0 else _LONGEST
+    longest = 4.9 if 0.5 < ratio < 2.0 else _LONGEST_SIDE
     width, height = (longest, longest * ratio) if ratio < 1 else (longest / ratio, longest)
     return max(width + 1.8, 5.6), max(height + 1.6, 3.4)
 
@@ -194,7 +202,7 @@ def window(result: Solution) -> tuple[Span, Span]:
         WINDOW, (result.scaled.x, result.scaled.y), (1.0 / ratio, ratio), strict=True
     ):
         tips = 1.0 / np.sqrt(max(slender, 1.0))
-        sides = max(1.0, 1.0 / (_SLENDER * slender))
+        sides = max(1.0, 1.0 / (_SLENDER_PICTURE * slender))
         low, high = ((end - np.sign(end)) * tips + np.sign(end) for end in span)
         spans.append((max(low * sides, float(axis[0])), min(high * sides, float(axis[-1]))))
     return spans[0], spans[1]
@@ -228,7 +236,15 @@ def window_part(result: Solution) -> tuple[slice, slice]:
 
 
 def span_part(axis: Array, span: Span) -> slice:
-    """Return the nodes of ``axis`` between two places, and one on either side."""
+    """Return the nodes between two places, and one on either side.
+
+    Parameters
+    ----------
+    axis : Array
+        Rising coordinates, at least one of which lies in the span.
+    span : (float, float)
+        Two places in the unit of ``axis``.
+    """
     inside = np.flatnonzero((axis >= span[0]) & (axis <= span[1]))
     return slice(max(int(inside[0]) - 1, 0), int(inside[-1]) + 2)
 
@@ -245,9 +261,16 @@ def centre_row(result: Solution) -> int:
 
 
 def dress_contact(axes: Axes, result: Solution) -> None:
-    """Give axes micrometres, the window and the Hertz ellipse of ``result``.
+    """Give axes micrometres, the window and the Hertz ellipse of a result.
 
     The aspect is equal, and of a slender contact stretched so that its map can be read.
+
+    Parameters
+    ----------
+    axes : Axes
+        Of a map in micrometres.
+    result : Solution
+        Gives the window and the Hertz ellipse.
     """
     widths = (result.scales.half_width_x * MICRO, result.scales.half_width_y * MICRO)
     x, y = ((low * a, high * a) for (low, high), a in zip(window(result), widths, strict=True))
@@ -264,7 +287,15 @@ def dress_contact(axes: Axes, result: Solution) -> None:
 
 
 def mark_levels(bar: Colorbar, lines: QuadContourSet) -> None:
-    """Mark contour lines and zero on a colour bar."""
+    """Mark contour lines and zero on a colour bar.
+
+    Parameters
+    ----------
+    bar : Colorbar
+        Of the map below the lines; its ticks are replaced.
+    lines : QuadContourSet
+        With levels in the unit of the bar.
+    """
     levels = np.asarray(lines.levels)
     if levels.size:
         bar.add_lines(lines)
@@ -298,12 +329,28 @@ def entrainment_arrow(axes: Axes) -> None:
 
 
 def outline(colour: str, width: float) -> list[AbstractPathEffect]:
-    """Return path effects that keep a thin line or a text legible on any ground."""
+    """Return path effects that keep a thin line or a text legible on any ground.
+
+    Parameters
+    ----------
+    colour : str
+        Of the halo, as matplotlib names it.
+    width : float
+        Of the halo together with what it surrounds [point].
+    """
     return [withStroke(linewidth=width, foreground=colour)]
 
 
 def nice_levels(span: Span, count: int) -> Array:
-    """Return about ``count`` round values from end to end of ``span`` or a little beyond."""
+    """Return round values from end to end of a span or a little beyond.
+
+    Parameters
+    ----------
+    span : (float, float)
+        Least and largest value.
+    count : int
+        Wanted number of intervals, at most.
+    """
     return np.asarray(MaxNLocator(count, steps=STEPS).tick_values(*span), dtype=np.float64)
 
 

@@ -21,7 +21,7 @@ from tehl.plots.frame import MICRO, figure_of, map_axes, window_part
 from tehl.result.solution import Solution
 
 Light = Literal["white", "dichromatic", "monochromatic"]
-_PIXELS = 900
+_PIXELS_ALONG_X = 900
 """Pixels along x; the film is interpolated so that fringes stay clean."""
 
 
@@ -51,11 +51,17 @@ class Optics:
     """Phase between the beams at zero distance [rad]; pi makes the zeroth order dark."""
 
     def thickness(self, film: Array, density_ratio: Array | float = 1.0) -> Array:
-        r"""Return the optical thickness ``n h + n_s h_s`` [m] of a film [m] and the spacer.
+        r"""Return the optical thickness ``n h + n_s h_s`` [m] of a film and the spacer.
 
-        The index n of the oil follows its density, ``density_ratio`` times that at ambient
-        pressure, after Lorentz and Lorenz, :math:`(n^2 - 1)/(n^2 + 2) \propto \rho`: some 8 % more
-        at 0.8 GPa.
+        The index n of the oil follows its density after Lorentz and Lorenz,
+        :math:`(n^2 - 1)/(n^2 + 2) \propto \rho`: some 8 % more at 0.8 GPa.
+
+        Parameters
+        ----------
+        film : Array
+            Film thickness h [m].
+        density_ratio : Array or float
+            Density over that at ambient pressure [-].
         """
         squared = self.refractive_index**2
         refraction = (squared - 1.0) / (squared + 2.0) * density_ratio
@@ -63,9 +69,14 @@ class Optics:
         return index * film + self.spacer_index * self.spacer_thickness
 
     def reflectance(self, thickness: Array, wavelength: Array | float) -> Array:
-        """Return the reflected part of light of a wavelength in vacuum [m], by two beams.
+        """Return the reflected part of light [-], by two beams.
 
-        ``thickness`` is the optical one [m]; both are broadcast against each other.
+        Parameters
+        ----------
+        thickness : Array
+            Optical thickness [m].
+        wavelength : Array or float
+            In vacuum [m], broadcast against ``thickness``.
         """
         first = self.chromium_reflectance
         second = self.chromium_transmittance**2 * self.ball_reflectance
@@ -118,8 +129,8 @@ def interferogram(
 
     chosen, part = Optics() if optics is None else optics, window_part(result)
     x, y = result.x[part[1]], result.y[part[0]]
-    fine_x = np.linspace(x[0], x[-1], _PIXELS)
-    fine_y = np.linspace(y[0], y[-1], max(2, round(_PIXELS * np.ptp(y) / np.ptp(x))))
+    fine_x = np.linspace(x[0], x[-1], _PIXELS_ALONG_X)
+    fine_y = np.linspace(y[0], y[-1], max(2, round(_PIXELS_ALONG_X * np.ptp(y) / np.ptp(x))))
     film, pressure = (
         np.nan_to_num(field[part], nan=0.0, posinf=0.0, neginf=0.0)
         for field in (result.film_thickness, result.pressure)
@@ -137,9 +148,21 @@ def interferogram(
 
 
 def colours(thickness: Array, optics: Optics) -> Array:
-    """Return the sRGB colours, 0 to 1, of an array of optical thickness [m]: one axis more.
+    """Return the colours of an array of optical thickness.
 
-    By a table over the thickness. The brightest fringe is as bright as the screen allows.
+    They are interpolated in a table over the thickness.
+
+    Parameters
+    ----------
+    thickness : Array
+        Optical thickness ``n h + n_s h_s`` [m], of any shape.
+    optics : Optics
+        Light, reflectances and phase.
+
+    Returns
+    -------
+    Array
+        sRGB from 0 to 1, one axis more than ``thickness``; the brightest fringe has 1.
     """
     top = max(float(np.max(thickness)), 1e-6)
     table = np.linspace(0.0, top, int(np.clip(top / 1e-9, 500, 20000)))

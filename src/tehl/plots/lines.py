@@ -33,7 +33,7 @@ from tehl.post.micro_film import micro_film
 from tehl.post.roughness import film_histogram, rough_film
 from tehl.result.solution import Solution
 
-_REACH = 1.25
+_LINE_HALF_WIDTHS = 1.25
 """Half-widths of the centre line between rough surfaces, on each side."""
 _AROUND = (-1.4, 1.4)
 """Part of both axes with profiles of the pressure [half-widths]."""
@@ -43,8 +43,15 @@ _PROFILES = 45
 def centre_lines(result: Solution, *, title: bool | None = True) -> Figure:
     """Draw pressure and film along x (y = 0) and along y (x = 0), with the dry contact dashed.
 
-    Pressure [GPa] and film [um] are on twin axes; a thermal run has two more panels beside them,
+    Pressure [GPa] and film [um] share the x axis; a thermal run has two more panels beside them,
     with the temperature rises [K].
+
+    Parameters
+    ----------
+    result : Solution
+        Isothermal or thermal.
+    title : bool or None
+        Whether the figure has a title.
     """
     thermal = result.heat is not None
     picture = figure(result, (12.4, 7.2) if thermal else (7.2, 7.2), title=title)
@@ -100,12 +107,25 @@ def rough_centre_line(
 ) -> Figure:
     """Draw pressure, film and the surfaces along y = 0.
 
-    The upper panel has pressure [GPa] and film [um], those of the smooth reference run drawn thin,
-    the lower one the undeformed heights beside the ripple of the film [nm]. Raises InputError if
-    both surfaces are smooth.
+    The upper panel has pressure [GPa] and film [um], the lower one the undeformed heights beside
+    the ripple of the film [nm].
+
+    Parameters
+    ----------
+    result : Solution
+        Film between rough surfaces.
+    smooth : Solution or None
+        Smooth reference run on the same grid, drawn thin.
+    title : bool or None
+        Whether the figure has a title.
+
+    Raises
+    ------
+    InputError
+        If both surfaces are smooth.
     """
     heights, row = heights_of(result).together, centre_row(result)
-    inside = np.abs(result.scaled.x) <= _REACH
+    inside = np.abs(result.scaled.x) <= _LINE_HALF_WIDTHS
     place = result.x[inside] * MICRO
     picture = figure(result, (7.6, 7.0), title=title)
     upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[1.5, 1.0])
@@ -136,8 +156,21 @@ def film_distribution(
 ) -> Figure:
     """Draw the distribution of the film thickness over the Hertz contact.
 
-    Beside the histogram are the part of the contact that has a thinner film, and Sq. Raises
-    InputError if the result has neither roughness nor ``rms_roughness``, or no film.
+    Beside the histogram are the part of the contact that has a thinner film, and Sq.
+
+    Parameters
+    ----------
+    result : Solution
+        With roughness or ``rms_roughness``.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+
+    Raises
+    ------
+    InputError
+        If the result has neither, or no film.
     """
     found = rough_film(result)
     if found is None:
@@ -166,6 +199,13 @@ def pressure_surface(result: Solution, *, title: bool | None = True) -> Figure:
 
     The profiles are rows of the stored field: nothing is interpolated, and the spike stands free.
     Wide contacts are drawn at most 2.5 times as wide as long; the axes show the true size.
+
+    Parameters
+    ----------
+    result : Solution
+        At most `_PROFILES` of its rows are drawn.
+    title : bool or None
+        Whether the figure has a title.
     """
     picture = figure(result, (7.0, 5.4), title=title)
     axes: Any = picture.add_subplot(projection="3d", computed_zorder=False)

@@ -58,6 +58,15 @@ def film_map(result: Solution, *, ax: Axes | None = None, title: bool | None = T
     around the contact, where the film is thicker, is grey, and
     contour lines lie close below 1.1 times the central film, so that the horseshoe and the side
     lobes show.
+
+    Parameters
+    ----------
+    result : Solution
+        Values that are not finite are left blank.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
     """
     axes = map_axes(result, ax=ax, title=title)
     places, film = window_places(result), result.film_thickness[window_part(result)] * MICRO
@@ -107,7 +116,18 @@ def _film_range(result: Solution, film: Array) -> tuple[float, float]:
 
 
 def film_levels(low: float, central: float) -> tuple[Array, Array]:
-    """Return contour levels: close ones up to 1.1 central films, wide ones up to three."""
+    """Return contour levels: close ones up to 1.1 central films, wide ones up to three.
+
+    Parameters
+    ----------
+    low, central : float
+        Minimum and central film, in the unit of the map.
+
+    Returns
+    -------
+    close, wide : Array
+        Levels for thick and for thin contour lines.
+    """
     middle, top = 1.1 * central, 3.0 * central
     fine, wide = nice_levels((low, middle), 6), nice_levels((middle, top), 5)
     return fine[(fine > low) & (fine <= middle)], wide[(wide > middle) & (wide <= top)]
@@ -129,6 +149,15 @@ def pressure_map(result: Solution, *, ax: Axes | None = None, title: bool | None
     """Draw the pressure [GPa] as a map with contour lines, marked on the colour bar.
 
     Lines follow a slightly smoothed copy of the pressure.
+
+    Parameters
+    ----------
+    result : Solution
+        The colours have the pressure of the nodes.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
     """
     places, pressure = window_places(result), result.pressure[window_part(result)] * GIGA
     top = float(np.max(pressure, initial=0.0, where=np.isfinite(pressure)))
@@ -157,7 +186,19 @@ def shear_stress_map(
 ) -> Figure:
     """Draw the magnitude of the shear stress at mid-film [MPa] as a map.
 
-    Raises InputError if the result has no shear stresses.
+    Parameters
+    ----------
+    result : Solution
+        Its ``shear`` has the stresses at mid-film [Pa].
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+
+    Raises
+    ------
+    InputError
+        If the result has no shear stresses.
     """
     shear, traction = result.shear, traction_of(result)
     if shear is None or traction is None:
@@ -229,7 +270,21 @@ def heights_of(result: Solution) -> SurfaceHeights:
 def heights_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the heights of both surfaces together [nm], as the grid carries them.
 
-    Peaks narrow the film. Raises InputError if both surfaces are smooth.
+    Peaks narrow the film.
+
+    Parameters
+    ----------
+    result : Solution
+        With at least one rough surface.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+
+    Raises
+    ------
+    InputError
+        If both surfaces are smooth.
     """
     heights = heights_of(result).together[window_part(result)] * 1e9
     found, note = rough_film(result), ""
@@ -253,9 +308,22 @@ def micro_film_map(
 ) -> Figure:
     """Draw the ripples of film [nm] and pressure [MPa] side by side.
 
-    The smooth reference run is subtracted; without it long waves are filtered off, and the ripples
-    at the rim of the contact and beyond are left blank. Colours span the ripples in the Hertz
-    contact. Raises InputError if both surfaces are smooth, or the reference run has another grid.
+    Colours span the ripples in the Hertz contact.
+
+    Parameters
+    ----------
+    result : Solution
+        With at least one rough surface.
+    smooth : Solution or None
+        Reference run to subtract; without it long waves are filtered off, and the ripples at
+        the rim of the contact and beyond are left blank.
+    title : bool or None
+        Whether the figure has a title.
+
+    Raises
+    ------
+    InputError
+        If both surfaces are smooth, or the reference run has another grid.
     """
     heights_of(result)
     ripples = micro_film(result, smooth)

@@ -28,7 +28,19 @@ _STREAMS: dict[str, Any] = {"color": "0.25", "linewidth": 0.5, "arrowsize": 0.6,
 def oil_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the part of the gap that is oil, the meniscus, and stream lines of the oil.
 
-    Raises ValueError if the oil of cavities was not conserved.
+    Parameters
+    ----------
+    result : Solution
+        With conserving cavitation or a supply.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+
+    Raises
+    ------
+    ValueError
+        If the oil of cavities was not conserved.
     """
     if result.oil is None:
         raise ValueError("the result has no oil map: its cavities do not conserve oil")
@@ -55,7 +67,19 @@ def _draw_meniscus(axes: Axes, result: Solution) -> list[Line2D]:
 def pass_history(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the films and the oil that enters, pass after pass, on logarithmic axes.
 
-    Raises ValueError for a result of a single pass.
+    Parameters
+    ----------
+    result : Solution
+        Of several passes.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+
+    Raises
+    ------
+    ValueError
+        If the result is of a single pass.
     """
     if result.passes is None:
         raise ValueError("the result is of a single pass: state supply.passes")

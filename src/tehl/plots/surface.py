@@ -12,11 +12,11 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from tehl.plots.frame import BLUE, MICRO, ORANGE, PLAIN, STEPS, Picture, outline
 from tehl.roughness.preview import Preview, View, view
 
-_CLIPPED, _COUNTED = 0.1, 10**6
+_CLIPPED, _COUNTED_HEIGHTS = 0.1, 10**6
 """Percentile of the heights that colours leave out, and the number of heights it is found from."""
-_SIZE, _NARROW = (10.5, 5.4), 8.0
-_SLENDER = 2.0
-_BINS = 81
+_SIZE, _NARROW_SIZE = (10.5, 5.4), 8.0
+_SLENDER_MAP = 2.0
+_HISTOGRAM_BINS = 81
 
 
 def surface_preview(preview: Preview, *, title: bool | None = True) -> Figure:
@@ -24,18 +24,25 @@ def surface_preview(preview: Preview, *, title: bool | None = True) -> Figure:
 
     The picture has the map with the contact, rotated and shifted as stated, the distribution of
     heights, and the power spectral density with the waves that the mesh loses.
+
+    Parameters
+    ----------
+    preview : Preview
+        With the mesh of a contact, or without one.
+    title : bool or None
+        Whether the figure names file and statistics above.
     """
     picture, seen = Picture(figsize=_SIZE, layout="constrained"), view(preview)
     width, height = seen.size
-    if width > _SLENDER * height:
+    if width > _SLENDER_MAP * height:
         parts = picture.subfigures(2, 1, squeeze=False, height_ratios=[0.8, 1.0])[:, 0]
         panels = parts[1].subplots(1, 2)
     else:
-        slender = height > _SLENDER * width
+        slender = height > _SLENDER_MAP * width
         shares = [0.62 if slender else 1.35, 1.0]
         parts = picture.subfigures(1, 2, squeeze=False, width_ratios=shares)[0]
         panels = parts[1].subplots(2, 1)
-        picture.set_figwidth(_NARROW if slender else _SIZE[0])
+        picture.set_figwidth(_NARROW_SIZE if slender else _SIZE[0])
     found, name = preview.statistics, preview.file.rpartition("/")[2].replace("$", r"\$")
     heights = ", ".join(
         f"{word} = {_height(value)}"
@@ -63,15 +70,15 @@ def _draw_map(axes: Axes, preview: Preview, seen: View) -> None:
     (left, right), (bottom, top) = seen.window
     factor, unit = _height_unit(preview)
     few = preview.heights.values.ravel()
-    few = few[:: max(1, few.size // _COUNTED)]
+    few = few[:: max(1, few.size // _COUNTED_HEIGHTS)]
     low, high = np.percentile(few, [_CLIPPED, 100 - _CLIPPED]) * factor
     extent = (left * MICRO, right * MICRO, bottom * MICRO, top * MICRO)
     style: dict[str, Any] = {"origin": "lower", "interpolation": "nearest", "cmap": "viridis"}
     image = axes.imshow(seen.values * factor, extent=extent, vmin=low, vmax=high, **style)
     axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]")
     for axis, slender in ((axes.xaxis, height / width), (axes.yaxis, width / height)):
-        axis.set_major_locator(MaxNLocator(2 if slender > _SLENDER else 6, steps=STEPS))
-    where = "bottom" if 1.4 * height < width <= _SLENDER * height else "right"
+        axis.set_major_locator(MaxNLocator(2 if slender > _SLENDER_MAP else 6, steps=STEPS))
+    where = "bottom" if 1.4 * height < width <= _SLENDER_MAP * height else "right"
     label = f"height outwards [{unit}]"
     bar: dict[str, Any] = {"extend": "both", "aspect": 35, "shrink": 0.9}
     axes.figure.colorbar(image, ax=axes, location=where, label=label, **bar)
@@ -105,7 +112,7 @@ def _draw_heights(axes: Axes, preview: Preview) -> None:
     off = (preview.heights.values - preview.heights.values.mean()).ravel() * factor
     sq = preview.statistics.sq * factor
     reach = float(np.clip(np.abs(off).max(), 3.5 * sq, 8.0 * sq))
-    axes.hist(off, bins=_BINS, range=(-reach, reach), density=True, color="#9db8dc")
+    axes.hist(off, bins=_HISTOGRAM_BINS, range=(-reach, reach), density=True, color="#9db8dc")
     places = np.linspace(-reach, reach, 300)
     normal = np.exp(-0.5 * (places / sq) ** 2) / (sq * np.sqrt(2.0 * np.pi))
     axes.plot(places, normal, color="0.25", lw=1.0, ls="--", label="normal, same Sq")

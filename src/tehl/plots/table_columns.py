@@ -59,6 +59,18 @@ def find_column(table: "pd.DataFrame", name: str) -> str:
     """Return the full name of a column; its last part suffices where it is unique.
 
     An axis of the study precedes a number of the same name.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Of a study.
+    name : str
+        Full path such as ``film.central``, or its last part.
+
+    Raises
+    ------
+    InputError
+        If there is no such column, or several.
     """
     names = [str(known) for known in table.columns]
     if name in names:
@@ -76,7 +88,20 @@ def find_column(table: "pd.DataFrame", name: str) -> str:
 
 
 def numbers(table: "pd.DataFrame", name: str) -> Column:
-    """Return a column of numbers in a unit that suits; a minus before its name turns its sign."""
+    """Return a column of numbers in a unit that suits.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Of a study, with the units of its columns in ``attrs``.
+    name : str
+        Path or last part of it, with a minus to turn the sign.
+
+    Raises
+    ------
+    InputError
+        If the column does not hold numbers.
+    """
     full = find_column(table, name.removeprefix("-"))
     try:
         values = table[full].to_numpy(np.float64, na_value=np.nan)
@@ -94,6 +119,20 @@ def certified(rows: "pd.DataFrame", column: Column) -> tuple[Column, Array | Non
     """Return a column with certified values where there are any, and its error bars.
 
     The bar of a value that is not certified is its estimated error.
+
+    Parameters
+    ----------
+    rows : DataFrame
+        Rows of the table that are drawn.
+    column : Column
+        Values on the grids of the cases, with the factor of their unit.
+
+    Returns
+    -------
+    column : Column
+        With values extrapolated from several grids where there are any.
+    bars : Array or None
+        In the unit of the column; None without any estimate.
     """
     name = f"uncertainty.{column.name}"
     estimated = _estimated(rows, column)

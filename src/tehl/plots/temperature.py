@@ -50,17 +50,27 @@ Line = tuple[int, slice] | tuple[slice, int]
 """Index of a grid line in the fields."""
 _TICKS = {2: 7, 3: 4, 6: 2}
 """Ticks along x, by the number of columns."""
-_ACROSS = 81
-_FLAT = 1e-6
+_POINTS_ACROSS = 81
+_FLAT_RISE = 1e-6
 """Part of the span around zero without a contour line: far out the rise is flat, and zero."""
-_HIGHEST = 3.0
+_HIGHEST_FILM = 3.0
 """Films that the section shows, in central films."""
 
 
 def mid_film_temperature(
     result: Solution, *, ax: Axes | None = None, title: bool | None = True
 ) -> Figure:
-    """Draw the temperature rise half-way between the surfaces [K] as a map."""
+    """Draw the temperature rise half-way between the surfaces [K] as a map.
+
+    Parameters
+    ----------
+    result : Solution
+        Of a thermal run.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+    """
     found = _heat_of(result)[1]
     note = (
         f"oil enters at {found.inlet - 273.15:.4g} °C; largest rise {found.film_rise_max:.3g} K "
@@ -95,13 +105,21 @@ def _coloured(
     """Draw a rise as colours and contour lines; return both."""
     mesh = axes.pcolormesh(*places, rise, clim=span, cmap="inferno", **MAP)
     levels = inner_levels(span)
-    levels = levels[np.abs(levels) > _FLAT * (span[1] - span[0])]
+    levels = levels[np.abs(levels) > _FLAT_RISE * (span[1] - span[0])]
     line: dict[str, Any] = {"colors": "white", "linewidths": 0.6, "alpha": 0.75}
     return mesh, axes.contour(*places, np.nan_to_num(rise), levels=levels, **line)
 
 
 def temperature_layers(result: Solution, *, title: bool | None = True) -> Figure:
-    """Draw the temperature rise on both surfaces and on layers between, in one scale of colours."""
+    """Draw the temperature rise on both surfaces and on layers between, in one scale of colours.
+
+    Parameters
+    ----------
+    result : Solution
+        Of a thermal run.
+    title : bool or None
+        Whether the figure has a title.
+    """
     found = _heat_of(result)[1]
     layers = _layers(result)
     slender = shape(result)
@@ -145,13 +163,20 @@ def temperature_section(result: Solution, *, title: bool | None = True) -> Figur
     """Draw the temperature rise in the plane y = 0, over z/h and over z, in one scale of colours.
 
     Between its nodes across the film the temperature is a cubic spline.
+
+    Parameters
+    ----------
+    result : Solution
+        Of a thermal run.
+    title : bool or None
+        Whether the figure has a title.
     """
     from scipy.interpolate import CubicSpline  # noqa: PLC0415 (0.3 s)
 
     heat, found = _heat_of(result)
     row, columns = centre_row(result), span_part(result.scaled.x, window(result)[0])
     x, film = result.x[columns] * MICRO, np.nan_to_num(result.film_thickness[row, columns] * 1e9)
-    zeta = np.linspace(0.0, 1.0, _ACROSS)
+    zeta = np.linspace(0.0, 1.0, _POINTS_ACROSS)
     rise = np.nan_to_num(heat.temperature[:, row, columns] - found.inlet)
     rise = CubicSpline(heat.zeta, rise, axis=0)(zeta)
     picture = figure(result, (7.6, 7.0), title=title)
@@ -160,7 +185,7 @@ def temperature_section(result: Solution, *, title: bool | None = True) -> Figur
     for axes, height in ((upper, np.ones_like(x)), (lower, film)):
         mesh, lines = _coloured(axes, (along, np.outer(zeta, height)), rise, _span(rise))
     lower.plot(x, film, color="black", lw=0.9)
-    top = _HIGHEST * result.film.central * 1e9
+    top = _HIGHEST_FILM * result.film.central * 1e9
     lower.set(ylabel="z [nm]", ylim=(0.0, top if top > 0 else 1.0), facecolor="0.88")
     lower.set(xlabel=ALONG_X, xlim=(x[0], x[-1]))
     upper.set(ylabel="z / h", ylim=(0.0, 1.0))
@@ -182,7 +207,15 @@ def _mark_ends(axes: Axes, result: Solution, colour: str, width: float) -> None:
 
 
 def surface_heat(result: Solution, *, title: bool | None = True) -> Figure:
-    """Draw temperature rises [K] and heat fluxes into the solids [MW/m^2] along y = 0."""
+    """Draw temperature rises [K] and heat fluxes into the solids [MW/m^2] along y = 0.
+
+    Parameters
+    ----------
+    result : Solution
+        Of a thermal run.
+    title : bool or None
+        Whether the figure has a title.
+    """
     heat = _heat_of(result)[0]
     row = centre_row(result)
     x = result.x * MICRO
@@ -205,7 +238,15 @@ def surface_heat(result: Solution, *, title: bool | None = True) -> Figure:
 
 
 def rises(result: Solution, line: Line) -> list[tuple[Array, dict[str, Any]]]:
-    """Return the temperature rises along a grid line [K], and the style of the curve of each."""
+    """Return the temperature rises along a grid line [K], and the style of the curve of each.
+
+    Parameters
+    ----------
+    result : Solution
+        Of a thermal run.
+    line : (int or slice, int or slice)
+        Row and columns, or rows and column, of the grid.
+    """
     heat, found = _heat_of(result)
     return [
         (field[line] - found.inlet, {"label": name, "color": colour, "ls": style, "lw": 1.3})

@@ -29,9 +29,21 @@ def traction_curve(
     of the slide-to-roll ratio, against that of the stress. Contacts that differ in anything but
     sliding and heat have curves of their own: circles are thermal, squares isothermal runs.
 
-    ``runs`` are results with shear stresses; or a table, anything with columns ``slide_roll_ratio``
-    and ``traction`` (at mid-film, with its sign) and perhaps ``thermal`` (true or false) and
-    ``case`` (a name). Raises InputError if a column is missing or nothing has a traction.
+    Parameters
+    ----------
+    runs : sequence of Solution, or Mapping
+        Results with shear stresses; or a table, anything with columns ``slide_roll_ratio`` and
+        ``traction`` (at mid-film, with its sign) and perhaps ``thermal`` (true or false) and
+        ``case`` (a name).
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+
+    Raises
+    ------
+    InputError
+        If a column is missing or nothing has a traction.
     """
     table = _columns(_of_results(runs) if isinstance(runs, Sequence) else runs)
     if not table["slide_roll_ratio"].size:

@@ -28,7 +28,7 @@ from tehl.result.transient import HistoryBars, TransientSolution
 
 _MOMENTS = 4
 """Moments in one picture."""
-_TALLEST = 2.2
+_FILM_AXIS_HEIGHT = 2.2
 """Height of the film axis, over the largest film in the contact."""
 _MILLISECOND = 2e-3
 """Duration from which on times are in milliseconds [s]."""
@@ -44,6 +44,13 @@ def history(run: TransientSolution, *, title: bool | None = True) -> Figure:
 
     The upper axis is the distance that the mean of both surfaces has moved. Bands are the error
     bars of a certified run.
+
+    Parameters
+    ----------
+    run : TransientSolution
+        Traction, rise and load are drawn if they change.
+    title : bool or None
+        Whether the figure has a title.
     """
     factor, unit = time_unit(run)
     numbers, time = run.history, run.history.time * factor
@@ -111,6 +118,13 @@ def space_time(run: TransientSolution, *, title: bool | None = True) -> Figure:
 
     Lines are the paths of points on both surfaces (and of the oil between them, dotted, at the mean
     speed, where the speeds differ).
+
+    Parameters
+    ----------
+    run : TransientSolution
+        With pressure and film along y = 0 at each step.
+    title : bool or None
+        Whether the figure has a title.
     """
     factor, unit = time_unit(run)
     part = _window(run)
@@ -157,9 +171,17 @@ def moments(
 ) -> Figure:
     """Draw pressure and film along y = 0 at several moments, above the undeformed rough body.
 
-    ``times`` [s] are rounded to steps; by default they are four while the roughness passes. The
-    steady film at the start is dotted. Below zero, on the scale of the film, are the heights of
+    The steady film at the start is dotted. Below zero, on the scale of the film, are the heights of
     both bodies together.
+
+    Parameters
+    ----------
+    run : TransientSolution
+        With pressure and film along y = 0 at each step.
+    times : sequence of float or None
+        Rounded to steps [s]; None takes four while the roughness passes.
+    title : bool or None
+        Whether the figure has a title.
     """
     reached, (factor, unit) = run.history.time, time_unit(run)
     steps = moments_of(run)
@@ -195,7 +217,7 @@ class CentreLines:
         self.lines, self.part = run.profiles, _window(run)
         self.x, right = run.x[self.part] * MICRO, axes.twinx()
         self.heights = (self.lines.height_1 + self.lines.height_2)[:, self.part] * MICRO
-        top = _TALLEST * _largest_inside(run, self.lines.film)
+        top = _FILM_AXIS_HEIGHT * _largest_inside(run, self.lines.film)
         self.ground = -0.08 * top - float(self.heights.max())
         self.bottom = -0.16 * top - float(np.ptp(self.heights))
         largest = 1.08 * float(self.lines.pressure.max()) * GIGA
@@ -236,7 +258,15 @@ def _largest_inside(run: TransientSolution, film: Array) -> float:
 
 
 def passage(run: TransientSolution, *, title: bool | None = True) -> Figure:
-    """Draw the range of film and pressure along y = 0 over the run."""
+    """Draw the range of film and pressure along y = 0 over the run.
+
+    Parameters
+    ----------
+    run : TransientSolution
+        With pressure and film along y = 0 at each step.
+    title : bool or None
+        Whether the figure has a title.
+    """
     found, start, part = envelope(run), run.profiles, _window(run)
     x = found.x[part] * MICRO
     picture = figure(run, (7.0, 6.2), title=title)
@@ -251,7 +281,7 @@ def passage(run: TransientSolution, *, title: bool | None = True) -> Figure:
         axes.plot(x, first[part] * unit, color=colour, lw=1.3, label="steady film at the start")
         axes.grid(axis="y", lw=0.3)
         axes.legend(**PLAIN)
-    lower.set_ylim(0.0, _TALLEST * _largest_inside(run, found.film_largest))
+    lower.set_ylim(0.0, _FILM_AXIS_HEIGHT * _largest_inside(run, found.film_largest))
     upper.set(ylabel="pressure p [GPa]", xlim=(x[0], x[-1]))
     upper.set_ylim(bottom=0.0)
     lower.set(ylabel="film h [µm]", xlabel=ALONG_X)

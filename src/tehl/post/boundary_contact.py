@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.base.typing import Array, BoolArray, IntArray, SingleArray
-from tehl.contact.boundary_contact import MARGIN, ContactFilm
+from tehl.contact.boundary_contact import TOUCHING_MARGIN, ContactFilm
 from tehl.estimate.domain import domain_of, expected_bar
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import ScaledProblem
@@ -23,7 +23,7 @@ from tehl.result.solution import Solution
 LEAST_CELLS = 8.0
 """Mesh widths across the patches of contact below which a share of the load is not known: of
 standing roughness that four cells per summit press into contact, eight may leave none."""
-BAR_OF_FILM, LARGEST_BAR = 4.0, 0.2
+BAR_OF_FILM, LARGEST_SHARE_BAR = 4.0, 0.2
 """Error bar of the share over the relative error of the film to expect, and largest one of a share
 that is known. Where the film is as thin as the boundary film, the error of the film decides what
 touches, though its thickness there does not show it (docs/theory/contact.md, resolution)."""
@@ -76,7 +76,7 @@ class Touching:
     patches: Patches | None
     """None where nothing touches."""
     balance: float
-    """Oil made or lost in film and contact, over the oil that enters [-]."""
+    """Mass-balance error of film and contact, over the oil that enters [-]."""
 
     @property
     def friction(self) -> float | None:
@@ -98,7 +98,7 @@ class Touching:
 
 
 def why_unknown(cells: float, error: float) -> str:
-    """Return why the grid does not know a share of the load, in words; nothing if it does.
+    """Return why a share of the load is not resolved by the grid; an empty text if it is.
 
     Parameters
     ----------
@@ -111,7 +111,9 @@ def why_unknown(cells: float, error: float) -> str:
         return "surfaces touch in no stored field, so its patches are not known (transient.frames)"
     if cells < LEAST_CELLS:
         return f"its patches are {cells:.2g} cells across, {LEAST_CELLS:g} are needed"
-    return f"the grid is too coarse for the oil, +- {error:.0%}" if error > LARGEST_BAR else ""
+    return (
+        f"the grid is too coarse for the oil, +- {error:.0%}" if error > LARGEST_SHARE_BAR else ""
+    )
 
 
 def touching(result: Solution) -> Touching | None:
@@ -130,7 +132,7 @@ def touching(result: Solution) -> Touching | None:
     area, motion = float(cells[meet].sum()), result.problem.motion
     slides = result.problem.slide_roll_ratio != 0.0
     return Touching(
-        margin=MARGIN * film.thickness,
+        margin=TOUCHING_MARGIN * film.thickness,
         share=share,
         share_error=_error_bar(result, film, share),
         is_certified=registry.at("touching.share").name in result.uncertainty,
@@ -186,7 +188,7 @@ def largest_patches(least: float, films: SingleArray, pressures: SingleArray) ->
     """
     cells = 0.0
     for film, pressure in zip(films, pressures, strict=True):
-        meet = film <= (1.0 + MARGIN) * least
+        meet = film <= (1.0 + TOUCHING_MARGIN) * least
         if meet.any():
             cells = max(cells, _diameters(meet, pressure)[-1])
     return cells

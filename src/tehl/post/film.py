@@ -73,6 +73,11 @@ def hertz_pressure(x: Array, y: Array) -> Array:
     r"""Return the dry Hertz pressure P [-] at X, Y [Hertz half-widths].
 
     .. math:: P = \sqrt{\max(0,\; 1 - X^2 - Y^2)}
+
+    Parameters
+    ----------
+    x, y : Array
+        Coordinates that broadcast against each other [a_x], [a_y].
     """
     return np.sqrt(np.maximum(0.0, 1.0 - x**2 - y**2))
 

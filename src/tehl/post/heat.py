@@ -106,7 +106,15 @@ def mean_temperature(heat: FilmHeat) -> Array:
 
 
 def lagrange_weights(nodes: Array, place: float) -> Array:
-    """Return the weights of the values at ``nodes`` in their polynomial at ``place``."""
+    """Return the weights of the values at ``nodes`` in their polynomial at ``place``.
+
+    Parameters
+    ----------
+    nodes : Array
+        Different places, (n,).
+    place : float
+        In the unit of ``nodes``; the weights are 0 and 1 if it is one of them.
+    """
     gaps, above = nodes[:, None] - nodes, np.broadcast_to(place - nodes, (nodes.size, nodes.size))
     ratios = np.divide(above, gaps, out=np.ones_like(gaps), where=gaps != 0)
     return ratios.prod(axis=1)

@@ -85,7 +85,7 @@ def _with_replenishment(time: Array, start: float, decay: float, gain: float) ->
     return films
 
 
-def side_flow_rate(result: Solution, track: float) -> float:
+def _side_flow_rate(result: Solution, track: float) -> float:
     """Return F by quadrature of the pressure of a result on y = 0 [1/(m^2 s)].
 
     Parameters
@@ -135,7 +135,7 @@ def layer_decay(result: Solution) -> LayerDecay:
     scales, pressure = result.scales, result.scaled.at_origin(result.pressure)
     density = float(problem.lubricant.density.density(pressure, scales.temperature))
     return LayerDecay(
-        rate=side_flow_rate(result, supply.track),
+        rate=_side_flow_rate(result, supply.track),
         rate_by_formula=rate_by_formula(
             problem.hertz, problem.ambient_viscosity, problem.pressure_coefficient, supply.track
         ),

@@ -101,7 +101,13 @@ def micro_film(rough: Solution, smooth: Solution | None = None) -> MicroFilm:
 
 
 def is_reference(rough: Solution, smooth: Solution) -> bool:
-    """Return whether two results differ by nothing but the heights of the surfaces."""
+    """Return whether two results differ by nothing but the heights of the surfaces.
+
+    Parameters
+    ----------
+    rough, smooth : Solution
+        Compared by their nodes, groups and scales; heights are ignored.
+    """
     same_grid = all(
         one.shape == other.shape and np.allclose(one, other)
         for one, other in ((rough.scaled.x, smooth.scaled.x), (rough.scaled.y, smooth.scaled.y))
@@ -123,7 +129,20 @@ def _pixel(result: Solution) -> tuple[float, float]:
 
 
 def roughness_effect(rough: Solution, smooth: Solution) -> RoughnessEffect:
-    """Return what roughness does to the film, from a rough result and its reference run."""
+    """Return what roughness does to the film, from a rough result and its reference run.
+
+    Parameters
+    ----------
+    rough : Solution
+        With heights.
+    smooth : Solution
+        Same contact with smooth surfaces, on the same grid.
+
+    Raises
+    ------
+    InputError
+        If ``smooth`` is not the reference run of ``rough``.
+    """
     ripples, contact = micro_film(rough, smooth), in_contact(rough)
     highest, without = float(rough.pressure.max()), float(smooth.pressure.max())
     here, there, traction = traction_of(rough), traction_of(smooth), None

@@ -11,15 +11,15 @@ from tehl.estimate.film_formulas import Lubrication, likely_film, lubrication, l
 from tehl.post.boundary_contact import touching
 from tehl.post.film import no_film
 from tehl.post.summits import load_sharing
-from tehl.post.waves.response import REACH, WaveResponse, wave_notes, wave_responses
+from tehl.post.waves.response import FIT_HALF_WIDTH, WaveResponse, wave_notes, wave_responses
 from tehl.result.solution import Solution
 from tehl.roughness.resolution import Resolution
 
 QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 """Parts of the contact whose films are reported."""
-SHALLOWEST = 0.01
+LEAST_RIPPLE_DEPTH = 0.01
 """Depth of a ripple that counts, over the mean film of the line [-]."""
-MIDDLE = 0.5
+CENTRE_RADIUS = 0.5
 """Radius of the middle of the contact, in half-widths."""
 _LINE = 0.8
 _SMOOTH = 1e-12
@@ -162,7 +162,7 @@ def ripples(x: Array, y: Array, film: Array, pressure: Array) -> tuple[float, fl
         Dimensionless.
     """
     radius = x**2 + y[:, None] ** 2
-    inside = radius < MIDDLE**2
+    inside = radius < CENTRE_RADIUS**2
     rows, columns = np.nonzero(inside)
     # a half domain stands for both halves, but its row y = 0 for itself
     weight = np.where(y[rows] == 0.0, 0.5 if y[0] == 0.0 else 1.0, 1.0)
@@ -207,12 +207,20 @@ def square(result: Solution) -> tuple[Array, ...]:
 
 def middle_film(result: Solution) -> float:
     """Return the mean film where |X|, |Y| < 0.4 [m]."""
-    part = np.ix_(*(np.abs(axis) <= REACH for axis in (result.scaled.y, result.scaled.x)))
+    part = np.ix_(*(np.abs(axis) <= FIT_HALF_WIDTH for axis in (result.scaled.y, result.scaled.x)))
     return float(result.film_thickness[part].mean())
 
 
 def in_contact(result: Solution, reach: float = 1.0) -> BoolArray:
-    """Return which nodes lie in the Hertz contact, (ny, nx), or in ``reach`` times its ellipse."""
+    """Return which nodes lie in the Hertz contact, (ny, nx).
+
+    Parameters
+    ----------
+    result : Solution
+        Decides the nodes.
+    reach : float
+        Size of the ellipse over that of Hertz [-].
+    """
     inside: BoolArray = result.scaled.x**2 + result.scaled.y[:, None] ** 2 < reach**2
     return inside
 
@@ -223,7 +231,15 @@ def film_in_contact(result: Solution) -> Array:
 
 
 def area_below(result: Solution, threshold: float) -> float:
-    """Return the part of the Hertz contact whose film is thinner than ``threshold`` [m]."""
+    """Return the part of the Hertz contact whose film is thinner than a threshold [-].
+
+    Parameters
+    ----------
+    result : Solution
+        Counted by its nodes in the Hertz ellipse.
+    threshold : float
+        Film thickness [m].
+    """
     return float(np.mean(film_in_contact(result) < threshold))
 
 
@@ -253,7 +269,7 @@ def film_histogram(result: Solution, bins: int | Sequence[float] = 60) -> tuple[
 def _ripples(axis: Array, film: Array) -> Ripples:
     """Return the valleys of a film along ``axis`` [half-widths]."""
     line = film[np.abs(axis) <= _LINE]
-    turns = _turns(line, SHALLOWEST * float(line.mean()))
+    turns = _turns(line, LEAST_RIPPLE_DEPTH * float(line.mean()))
     # Every other turn is a valley; those at the ends lie beside one hill only.
     depths = [
         0.5 * (line[before] + line[after]) - line[here]

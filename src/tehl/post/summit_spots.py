@@ -32,7 +32,7 @@ from tehl.post.traction import cell_widths
 from tehl.result.fields import FilmAsperities
 from tehl.result.solution import Solution
 
-FEWEST = 0.5
+LEAST_SPOTS = 0.5
 """Spots in the contact below which none touches."""
 
 
@@ -57,6 +57,13 @@ def real_area(result: Solution, found: FilmAsperities) -> Array:
     """Return the part of the area in which asperities touch, at each node [-].
 
     That of elastic summits, or the part on which they yield if it is larger.
+
+    Parameters
+    ----------
+    result : Solution
+        For the hardness of the softer surface [Pa]; without one, summits are elastic.
+    found : FilmAsperities
+        Pressure [Pa] and elastic area [-] of the asperities at the nodes.
     """
     problem = result.problem
     stated = (problem.surface_1.material.hardness, problem.surface_2.material.hardness)
@@ -65,7 +72,15 @@ def real_area(result: Solution, found: FilmAsperities) -> Array:
 
 
 def spots(result: Solution, found: FilmAsperities) -> Spots | None:
-    """Return the spots of a result with asperities; None where none touches."""
+    """Return the spots of a result with asperities; None where none touches.
+
+    Parameters
+    ----------
+    result : Solution
+        With the laws of asperities and of friction.
+    found : FilmAsperities
+        Pressure [Pa], area [-] and density of the spots [1/m^2] at the nodes, (ny, nx).
+    """
     law = result.problem.asperities
     if law is None or not found.area.max() > 0.0:
         return None
@@ -77,7 +92,7 @@ def spots(result: Solution, found: FilmAsperities) -> Spots | None:
     pressure = found.pressure / np.where(real > 0.0, real, 1.0)
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
     number = float((cells * density).sum())
-    if number < FEWEST:
+    if number < LEAST_SPOTS:
         return None
     most = np.unravel_index(found.pressure.argmax(), found.pressure.shape)
     rises = _flash_rises(result, law.friction * pressure, radius)

@@ -9,7 +9,7 @@ from tehl.post.summit_spots import Spots, real_area, spots
 from tehl.post.traction import cell_widths, traction
 from tehl.result.solution import Solution
 
-NOTHING = 1e-9
+NEGLIGIBLE_SHARE = 1e-9
 """Share of the load below which asperities carry nothing."""
 
 
@@ -42,7 +42,7 @@ class LoadSharing:
     spots: Spots | None
     """Spots on which summits touch; None where none touches."""
     balance: float
-    """Oil made or lost in the film, over the oil that enters [-]."""
+    """Mass-balance error of the film, over the oil that enters [-]."""
 
     @property
     def friction(self) -> float:
@@ -61,7 +61,7 @@ def load_sharing(result: Solution) -> LoadSharing | None:
         return None
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
     share = float((cells * found.pressure).sum()) / result.load
-    share = share if share > NOTHING else 0.0
+    share = share if share > NEGLIGIBLE_SHARE else 0.0
     hertz = math.pi * scales.half_width_x * scales.half_width_y
     area = float((cells * real_area(result, found)).sum())
     bar = None if result.errors is None else result.errors.at("load_sharing.share")

@@ -41,7 +41,15 @@ def isothermal_reference(problem: ContactProblem) -> ContactProblem:
 
 
 def thermal_effect(thermal: Solution, isothermal: Solution) -> ThermalEffect:
-    """Return the effect of heat, from a thermal result and its isothermal reference run."""
+    """Return the effect of heat, from a thermal result and its isothermal reference run.
+
+    Parameters
+    ----------
+    thermal : Solution
+        Film with heat.
+    isothermal : Solution
+        Same contact at the inlet temperature.
+    """
     warm, cold = thermal.film, isothermal.film
     return ThermalEffect(
         central=warm.central / cold.central,

@@ -50,7 +50,7 @@ class Traction:
 
     @property
     def credible(self) -> bool:
-        """Whether an oil can transmit so much: at most 0.1 at mid-film."""
+        """Whether the coefficient is physical: at most 0.1 at mid-film."""
         return abs(self.mid_film) <= LARGEST_CREDIBLE
 
     @property

@@ -57,7 +57,7 @@ def moving_profiles(
     Parameters
     ----------
     run : TransientSolution
-        The run.
+        With the profiles along y = 0 at each step.
     surface : {1, 2}
         Which surface.
     start : float
@@ -125,7 +125,7 @@ def envelope(run: TransientSolution, *, since: float = 0.0, until: float = math.
     Parameters
     ----------
     run : TransientSolution
-        The run.
+        With the profiles along y = 0 at each step.
     since, until : float
         First and last time [s].
 
@@ -168,7 +168,7 @@ def largest_change(run: TransientSolution, name: str, sign: int) -> LargestChang
     Parameters
     ----------
     run : TransientSolution
-        The run.
+        Its first profile is the reference.
     name : {"film", "pressure"}
         Which profile.
     sign : {-1, 1}
@@ -193,12 +193,23 @@ def passing_features(run: TransientSolution) -> Iterator[tuple[Part, float]]:
 
 
 def film_at(run: TransientSolution, frame: int = -1) -> Solution:
-    """Return a stored field as a steady result; negative numbers count from the last field.
+    """Return a stored field as a steady result.
 
     It has pressure, film and heights at that time in the precision of the fields, with the smallest
     nodal film as the minimum; no temperatures, stresses, error bars and cycles. The functions of
-    `tehl.post.roughness`, `tehl.post.micro_film` and `tehl.plots` take it. Raises InputError if the
-    field is not stored.
+    `tehl.post.roughness`, `tehl.post.micro_film` and `tehl.plots` take it.
+
+    Parameters
+    ----------
+    run : TransientSolution
+        With fields stored by ``transient.frames``.
+    frame : int
+        Number of the field; negative numbers count from the last one.
+
+    Raises
+    ------
+    InputError
+        If the field is not stored.
     """
     frames, start = run.frames, run.start
     count = len(frames.step)

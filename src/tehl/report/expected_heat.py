@@ -137,7 +137,15 @@ class _HeatPath(NamedTuple):
 
 
 def expected_heat(scaled: ScaledProblem, bodies: BodyEffect | None) -> ExpectedHeat | None:
-    """Return the effect of shear heating; None where the solids state too little."""
+    """Return the effect of shear heating; None where the solids state too little.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        With the thermal properties of oil and solids.
+    bodies : BodyEffect or None
+        Film at the temperature of the bodies; None if they are as warm as the oil.
+    """
     problem = scaled.problem
     film = expected_film(scaled) if bodies is None else bodies.central_film
     film *= inlet_heating_factor(problem) or 1.0

@@ -146,7 +146,15 @@ class Explanation:
 
 
 def explain(problem: ContactProblem, options: Options | None = None) -> Explanation:
-    """Return what formulas say about a case, without solving it."""
+    """Return what formulas say about a case, without solving it.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Steady or transient.
+    options : Options or None
+        With ``points = "auto"`` those expected to reach the error; None is the defaults.
+    """
     asked = options or Options()
     scaled = ScaledProblem.of(problem)
     follows = planned(scaled, asked.model_copy(update={"points": "auto"}))

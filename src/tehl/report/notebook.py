@@ -13,7 +13,7 @@ from tehl.report.headline import headline
 from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
 
-_DPI = 72
+_NOTEBOOK_DPI = 72
 
 
 def result_html(result: Solution | TransientSolution) -> str:
@@ -33,7 +33,8 @@ def result_html(result: Solution | TransientSolution) -> str:
 
 def image_html(figure: Figure, words: str) -> str:
     """Return a matplotlib figure as an image in HTML."""
-    return f'<img alt="{escape(words)}" src="{data_url(figure, dpi=_DPI, bbox_inches="tight")}">'
+    source = data_url(figure, dpi=_NOTEBOOK_DPI, bbox_inches="tight")
+    return f'<img alt="{escape(words)}" src="{source}">'
 
 
 def data_url(figure: Figure, **style: Any) -> str:

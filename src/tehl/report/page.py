@@ -52,7 +52,7 @@ CAPTIONS = {
     "interferogram_dichromatic": "Synthetic interferogram, two lines.",
 }
 """Pictures of a report, in its order."""
-LONGEST = 12
+MOST_LISTED_CYCLES = 12
 """Cycles that a report lists."""
 
 
@@ -85,7 +85,7 @@ def report_text(
     content |= {
         "effect": effect,
         "heat": result.heat,
-        "longest": LONGEST,
+        "longest": MOST_LISTED_CYCLES,
         "main_rows": list(rows_of(result, "report")),
         "rises": list(rows_of(result, "rises")),
         "rough": rough_film(result, smooth),

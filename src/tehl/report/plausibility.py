@@ -20,7 +20,7 @@ from tehl.estimate.film_formulas import likely_film
 from tehl.estimate.scaling import ScaledProblem
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
-from tehl.report.roughness import CONVERGES, LARGEST, RESOLVES, Asperities
+from tehl.report.roughness import CONVERGES, MOST_NODES_PER_AXIS, RESOLVES, Asperities
 
 SLIDING = 0.02
 """Slide-roll ratio from which on surfaces count as sliding."""
@@ -32,18 +32,18 @@ FEW_LAYERS = 15
 """Uniform layers below which a temperature profile is under-resolved."""
 SLOWEST_LINE = 5.0
 """Solid Peclet number below which a line source deviates by more than four per cent."""
-NEAR, LEAST_DOMAIN_ERROR = 0.95, 0.005
+NEAR_EDGE_RATIO, LEAST_DOMAIN_ERROR = 0.95, 0.005
 """Edge of a stated domain over the recommended one below which it is mentioned, and error of the
 film by zero pressure on the edges from which on it is."""
-CLOSEST, WIDEST = 1.005, 1.25
+LEAST_CONFORMITY, LARGEST_CONFORMITY = 1.005, 1.25
 """Radius of the groove of a bearing over that of its ball: conformities of 0.5025 to 0.625."""
 MOLECULAR = 5e-9
 """Film below which the oil is not a continuum [m]."""
-STEEP = 0.1
+STEEP_SLOPE = 0.1
 """Slope from which on Reynolds' equation does not hold."""
 SHARP = (1e-4, 1e-2)
 """Height of asperities over the radius of their summits: of machined surfaces."""
-ROUNDING = 1e-9
+LIMIT_ROUNDING = 1e-9
 """Part of a limit by which a value may miss it: groups are computed from SI with rounding."""
 
 
@@ -60,7 +60,7 @@ class Typical(NamedTuple):
 
     def question(self) -> str | None:
         """Return what is not plausible, None inside the range."""
-        if self.low * (1.0 - ROUNDING) <= self.value <= self.high * (1.0 + ROUNDING):
+        if self.low * (1.0 - LIMIT_ROUNDING) <= self.value <= self.high * (1.0 + LIMIT_ROUNDING):
             return None
         hint = self.hint_above if self.value > self.high and self.hint_above else self.hint
         unit = f" {self.unit}" if self.unit else ""
@@ -91,7 +91,7 @@ def questions(
     Parameters
     ----------
     scaled : ScaledProblem
-        The contact.
+        With dimensionless groups, Hertz contact and expected films.
     options : Options
         Its numerics.
     heat : ExpectedHeat or None
@@ -145,7 +145,7 @@ def _about_groove(problem: ContactProblem) -> Iterator[str]:
     surfaces = {"surface_1": problem.surface_1, "surface_2": problem.surface_2}
     for name, other in (("surface_1", "surface_2"), ("surface_2", "surface_1")):
         ball, across = surfaces[other].radius, surfaces[name].radius_y
-        if ball and across and CLOSEST <= across / ball <= WIDEST:
+        if ball and across and LEAST_CONFORMITY <= across / ball <= LARGEST_CONFORMITY:
             yield (
                 f"{name}.radius_y = {1e3 * across:.4g} mm: the surface is convex across the "
                 f"rolling direction; the groove of a ball has a negative radius_y, "
@@ -226,7 +226,7 @@ def _about_sliding(problem: ContactProblem) -> Iterator[str]:
             f"slide_roll_ratio = {problem.slide_roll_ratio:g}: the surfaces move in opposite "
             "directions; the ratio is (u_1 - u_2) / u_m, with u_m the mean speed"
         )
-    high = pressure >= UNPHYSICAL * (1.0 - ROUNDING)
+    high = pressure >= UNPHYSICAL * (1.0 - LIMIT_ROUNDING)
     if slip > SLIDING and high and problem.lubricant.shear.is_newtonian:
         yield (
             f"a Newtonian film slides at {pressure / 1e9:.2g} GPa: traction coefficients above 0.1 "
@@ -289,7 +289,7 @@ def _about_domain(options: Options, scaled: ScaledProblem) -> Iterator[str]:
         ("side edge y", stated.y[0], wanted.y[0]),
         ("side edge y", stated.y[1], wanted.y[1]),
     ):
-        if abs(here) < NEAR * abs(there):
+        if abs(here) < NEAR_EDGE_RATIO * abs(there):
             yield (
                 f"numerics.domain has its {name} at {here:g}, recommended is {there:.3g}: the "
                 "error of the film from the domain may be large"
@@ -329,7 +329,9 @@ def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -
         yield found.resolution.warning
     if found.points_per_wave < CONVERGES:
         enough, better = (
-            f"{'more than ' if points > LARGEST else ''}{min(points, LARGEST)} nodes"
+            f"{points} nodes"
+            if points <= MOST_NODES_PER_AXIS
+            else f"more than {MOST_NODES_PER_AXIS} nodes"
             for points in (found.points_to_converge, found.points_to_resolve)
         )
         yield (
@@ -338,9 +340,9 @@ def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -
             f"converge; {enough} put {CONVERGES} on it, {better} the {RESOLVES} that its ripples "
             "need"
         )
-    if found.steepest > STEEP:
+    if found.steepest > STEEP_SLOPE:
         yield (
-            f"the surfaces have slopes up to {found.steepest:.2g}: Reynolds' equation needs gentle "
+            f"the surfaces have slopes up to {found.steepest:.2g}: Reynolds' equation needs small "
             "ones, check the units of height and length"
         )
     if film < found.composite:

@@ -43,6 +43,13 @@ def input_rows(model: BaseModel, prefix: str = "") -> Iterator[tuple[str, str]]:
     """Yield key path (``contact.load``) and value with unit of each value that a model states.
 
     Paths of the models in it follow after ``prefix``.
+
+    Parameters
+    ----------
+    model : BaseModel
+        A case, or a table of one; empty texts and None are left out.
+    prefix : str
+        Key path of the table with a final dot; empty for a whole case.
     """
     for name, field in type(model).model_fields.items():
         value = getattr(model, name)

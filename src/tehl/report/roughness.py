@@ -15,7 +15,7 @@ from tehl.roughness.resolution import Resolution
 
 CONVERGES, RESOLVES = 8, 16
 """Nodes on the shortest wave with which runs converge, and with which ripples are right to 3 %."""
-LARGEST = 16385
+MOST_NODES_PER_AXIS = 16385
 """Nodes per direction beyond which no number is proposed."""
 _THEORY = ("film_ratio", "pressure", "elastic_pressure")
 
@@ -67,7 +67,7 @@ def asperities(
     Parameters
     ----------
     problem, options : ContactProblem, Options
-        The case.
+        Surfaces and motion, and the error to reach.
     mesh : (float, float)
         Mesh widths of the finest grid along x and y [m].
     film : float
@@ -133,4 +133,4 @@ def _needed(options: Options, fewest: float, axis: int, wanted: int) -> int:
     """Return the nodes per direction that put ``wanted`` of them on the shortest wave."""
     nodes = options.shape[1 - axis]
     intervals = math.ceil((nodes - 1) * wanted / fewest)
-    return coarsenable(min(intervals, 2 * LARGEST))[1]
+    return coarsenable(min(intervals, 2 * MOST_NODES_PER_AXIS))[1]

@@ -33,19 +33,27 @@ class Row:
 
 
 def rows_of(result: Solution, place: str) -> Iterator[Row]:
-    """Yield a row for each quantity that ``result`` has and that a place shows."""
+    """Yield a row for each quantity that ``result`` has and that a place shows.
+
+    Parameters
+    ----------
+    result : Solution
+        A certified one has values with error bars, and those of its grid beside them.
+    place : str
+        Output whose wording and choice of quantities are taken, a key of ``Quantity.words``.
+    """
     numbers, on_grid = Following(result).numbers, Following(result.but(uncertainty={})).numbers
     for one in shown_in(place):
         rolls = one.block == "traction" and not result.problem.slide_roll_ratio
         value = None if rolls else numbers.get(one.path)
         if value is not None:
-            twin = dimensionless(one)
+            other = dimensionless(one)
             yield Row(
                 name=one.words[place],
                 quantity=one,
                 value=value,
                 on_grid=on_grid.get(one.path),
-                scaled=None if twin is None else on_grid.get(twin.path),
+                scaled=None if other is None else on_grid.get(other.path),
                 error=one.error_in(numbers),
             )
 

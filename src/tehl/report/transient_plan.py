@@ -56,7 +56,7 @@ def transient_plan(
     Parameters
     ----------
     scaled : ScaledProblem
-        The contact.
+        With the surfaces, their speeds and the ``transient`` table.
     options : Options
         Its numerics.
     mesh : (float, float)

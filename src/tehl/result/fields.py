@@ -144,7 +144,7 @@ class FilmAsperities(_ReadOnly):
     rms: Array
     """(): Standard deviation of their heights [m]."""
     balance: Array
-    """(): Oil made or lost in the film, over the oil that enters [-]."""
+    """(): Mass-balance error of the film, over the oil that enters [-]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -154,7 +154,7 @@ class FilmContact(_ReadOnly):
     pressure: Array
     """(ny, nx): What the contact carries beside the oil [Pa]."""
     balance: Array
-    """(): Oil made or lost in film and contact, over the oil that enters [-]."""
+    """(): Mass-balance error of film and contact, over the oil that enters [-]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -119,10 +119,12 @@ def dimensionless(one: Quantity) -> Quantity | None:
     """Return the same quantity over its scale, None where the summary does not have it."""
     if not (one.name and one.unit):
         return None
-    twins = (
-        twin for twin in quantities.QUANTITIES if (twin.name, twin.block) == (one.name, one.block)
+    others = (
+        other
+        for other in quantities.QUANTITIES
+        if (other.name, other.block) == (one.name, one.block)
     )
-    return next((twin for twin in twins if twin.certified and not twin.unit), None)
+    return next((other for other in others if other.certified and not other.unit), None)
 
 
 def certified(*kinds: Certified) -> tuple[Quantity, ...]:

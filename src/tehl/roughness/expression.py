@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from tehl.base.typing import Array, np
 from tehl.roughness.model import metres
 
-_LONGEST, _NODES, _LARGEST_POWER = 500, 200, 12
+_LONGEST_FORMULA, _MOST_NODES, _LARGEST_POWER = 500, 200, 12
 _NUMBER = re.compile(
     r"(?<![\w.])((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:\s*(nm|um|µm|μm|mm|cm|m|deg|rad)\b)?"
 )
@@ -39,13 +39,13 @@ def read_formula(text: str) -> Callable[[Place], Any]:
 
     Raises ValueError if it is not one, or if its units do not give a length.
     """
-    if len(text) > _LONGEST:
-        raise ValueError(f"has more than {_LONGEST} characters")
+    if len(text) > _LONGEST_FORMULA:
+        raise ValueError(f"has more than {_LONGEST_FORMULA} characters")
     plain = _NUMBER.sub(_with_unit, text.replace("^", "**")).strip()
     try:
         tree = ast.parse(plain, mode="eval").body
-        if sum(1 for _ in ast.walk(tree)) > _NODES:
-            raise ValueError(f"has more than {_NODES} parts")
+        if sum(1 for _ in ast.walk(tree)) > _MOST_NODES:
+            raise ValueError(f"has more than {_MOST_NODES} parts")
         term = _term(tree)
     except (SyntaxError, MemoryError, RecursionError):
         raise ValueError(

@@ -14,7 +14,7 @@ from tehl.roughness.model import (
     RoughnessModel,
     SignedHeight,
     Wavelength,
-    check_gentle,
+    check_slope,
     direction,
 )
 
@@ -41,8 +41,8 @@ class FeatureModel(RoughnessModel):
     """Where it stands at time zero [m]; a point of the crest of a ridge."""
 
     @model_validator(mode="after")
-    def _must_be_gentle(self) -> Self:
-        check_gentle(self.amplitude, **{self.LENGTH: self._length})
+    def _must_be_shallow(self) -> Self:
+        check_slope(self.amplitude, **{self.LENGTH: self._length})
         return self
 
     @property

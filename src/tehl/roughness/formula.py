@@ -9,11 +9,11 @@ from pydantic import model_validator
 from tehl.base.errors import InputError
 from tehl.base.typing import Array, np
 from tehl.roughness.expression import Place, read_formula
-from tehl.roughness.model import RoughnessModel, Wavelength, check_gentle
+from tehl.roughness.model import RoughnessModel, Wavelength, check_slope
 
-_REACH, _STEP, _COUNT = 1e-3, 5e-8, 4096
+_SAMPLE_HALF_WIDTH, _DIFFERENCE_STEP, _SAMPLE_COUNT = 1e-3, 5e-8, 4096
 """Half-width of the square that is sampled, step of differences [m], and number of samples."""
-_FLAT, _ALIKE = 1e-9, 1e-9
+_FLAT_HEIGHTS, _EQUAL_HEIGHTS = 1e-9, 1e-9
 
 
 class _Samples(NamedTuple):
@@ -40,12 +40,12 @@ class Formula(RoughnessModel):
     """Shortest wave that a mesh must carry [m]; estimated if left out."""
 
     @model_validator(mode="after")
-    def _must_be_gentle(self) -> Self:
+    def _must_be_shallow(self) -> Self:
         try:
             found = _samples(self.formula)
         except InputError as error:
             raise ValueError(str(error)) from None
-        check_gentle(found.largest, wavelength=min(*found.wavelengths, 4.0 * _REACH))
+        check_slope(found.largest, wavelength=min(*found.wavelengths, 4.0 * _SAMPLE_HALF_WIDTH))
         return self
 
     @property
@@ -97,24 +97,28 @@ def _heights(formula: str, x: Array, y: Array) -> Array:
 def _samples(formula: str) -> _Samples:
     """Return what samples of a formula show."""
     random = np.random.default_rng(0)
-    wide = random.uniform(-_REACH, _REACH, (2, _COUNT))
-    angle = random.uniform(0.0, 2.0 * np.pi, _COUNT)
-    near = np.geomspace(1e-3 * _REACH, _REACH, _COUNT) * np.array([np.cos(angle), np.sin(angle)])
+    wide = random.uniform(-_SAMPLE_HALF_WIDTH, _SAMPLE_HALF_WIDTH, (2, _SAMPLE_COUNT))
+    angle = random.uniform(0.0, 2.0 * np.pi, _SAMPLE_COUNT)
+    near = np.geomspace(1e-3 * _SAMPLE_HALF_WIDTH, _SAMPLE_HALF_WIDTH, _SAMPLE_COUNT) * np.array(
+        [np.cos(angle), np.sin(angle)]
+    )
     x, y = np.concatenate([wide, near], axis=1)
     middle = _heights(formula, x, y)
     scale = float(np.abs(middle).max())
     waves = []
-    for along, across in ((_STEP, 0.0), (0.0, _STEP)):
+    for along, across in ((_DIFFERENCE_STEP, 0.0), (0.0, _DIFFERENCE_STEP)):
         before = _heights(formula, x - along, y - across)
         after = _heights(formula, x + along, y + across)
-        slope = float(np.abs(after - before).max()) / (2.0 * _STEP)
-        bend = float(np.abs(after - 2.0 * middle + before).max()) / _STEP**2
-        is_straight = bend * _STEP**2 <= _FLAT * slope * _STEP + 1e-13 * scale
+        slope = float(np.abs(after - before).max()) / (2.0 * _DIFFERENCE_STEP)
+        bend = float(np.abs(after - 2.0 * middle + before).max()) / _DIFFERENCE_STEP**2
+        is_straight = (
+            bend * _DIFFERENCE_STEP**2 <= _FLAT_HEIGHTS * slope * _DIFFERENCE_STEP + 1e-13 * scale
+        )
         waves.append(math.inf if is_straight else 2.0 * math.pi * slope / bend)
     mirrored = _heights(formula, x, -y)
     return _Samples(
-        rms=float(middle[:_COUNT].std()),
+        rms=float(middle[:_SAMPLE_COUNT].std()),
         largest=float(np.ptp(middle)) / 2.0 if np.ptp(middle) > 0 else scale,
         wavelengths=(waves[0], waves[1]),
-        is_even_in_y=bool(np.abs(mirrored - middle).max() <= _ALIKE * scale),
+        is_even_in_y=bool(np.abs(mirrored - middle).max() <= _EQUAL_HEIGHTS * scale),
     )

@@ -25,12 +25,12 @@ from tehl.roughness.prepare import (
 )
 from tehl.roughness.tile import Tile
 
-_LEAST = 4
+_LEAST_POINTS = 4
 _TAPER = 0.1
-_LOWEST, _HIGHEST = 1e-12, 10e-6
-_ROUNDING = 1e-12
+_LEAST_SQ, _LARGEST_SQ = 1e-12, 10e-6
+_RELATIVE_ROUNDING = 1e-12
 _PHASES = ("rad", "radian", "radians", "waves", "wave", "fringes", "fringe", "fr", "wv")
-_WIDEST, _FINEST, _TALLEST = 1.0, 1e-10, 1.0
+_LARGEST_SIZE, _LEAST_SPACING, _LARGEST_HEIGHT = 1.0, 1e-10, 1.0
 
 
 @contextmanager
@@ -104,12 +104,14 @@ def _tile(surface: MapSettings, stamp: object) -> Tile:
 def _highest(heights: Array, factor: float) -> float:
     """Return the largest number of a file; reject too few points and absurd heights."""
     ny, nx = heights.shape
-    if min(ny, nx) < _LEAST:
-        raise InputError(f"has {nx} x {ny} points, but a map has at least {_LEAST} x {_LEAST}")
+    if min(ny, nx) < _LEAST_POINTS:
+        raise InputError(
+            f"has {nx} x {ny} points, but a map has at least {_LEAST_POINTS} x {_LEAST_POINTS}"
+        )
     if not np.isfinite(heights).any():
         raise InputError("has no point with a height")
     highest = float(np.abs(heights[np.isfinite(heights)]).max())
-    if not highest <= _TALLEST / factor:
+    if not highest <= _LARGEST_HEIGHT / factor:
         raise InputError(
             f"has heights up to {highest:.3g} times {factor:g} m: it is damaged, marks missing "
             "points by a number, or has another unit"
@@ -164,7 +166,7 @@ def _pixel(surface: MapSettings, raw: RawMap, notes: list[str]) -> tuple[float, 
             first, second = (f"{x * 1e6:.4g} and {y * 1e6:.4g} um" for x, y in (pixel, own))
             notes.append(f"its points are taken {first} apart, though the file says {second}")
     size = (nx * pixel[0], ny * pixel[1])
-    if not (max(size) <= _WIDEST and min(pixel) >= _FINEST):
+    if not (max(size) <= _LARGEST_SIZE and min(pixel) >= _LEAST_SPACING):
         raise InputError(
             f"has a size of {size[0]:.3g} x {size[1]:.3g} m with points {min(pixel):.3g} m "
             "apart, which is not that of a measured surface: check unit, xy_unit, pixel and size"
@@ -213,10 +215,10 @@ def _cropped(surface: MapSettings, values: Array, pixel: tuple[float, float]) ->
     for axis, count, step in zip("yx", values.shape, pixel[::-1], strict=True):
         span = getattr(surface.crop, axis)
         first, last = (0, count) if span is None else (round(end / step) for end in span)
-        if not first + _LEAST <= last <= count:
+        if not first + _LEAST_POINTS <= last <= count:
             raise InputError(
                 f"measures {count * step * 1e6:.4g} um along {axis}, where crop leaves fewer than "
-                f"{_LEAST} points or goes beyond"
+                f"{_LEAST_POINTS} points or goes beyond"
             )
         parts.append(slice(first, last))
     values = values[parts[0], parts[1]]
@@ -259,18 +261,18 @@ def _filtered(surface: MapSettings, values: Array, heights: Heights, notes: list
 
 def _check_heights(surface: MapSettings, heights: Heights, highest: float) -> None:
     """Reject heights that are constant or outside the physical range; ``highest`` in [m]."""
-    if not np.ptp(heights.values[heights.measured]) > _ROUNDING * highest:
+    if not np.ptp(heights.values[heights.measured]) > _RELATIVE_ROUNDING * highest:
         raise InputError("is constant: it has no roughness")
     off, how = heights.sq, f'after level = "{surface.level}"'
-    if not off >= _LOWEST:
+    if not off >= _LEAST_SQ:
         has_filters = surface.lambda_c is not None or surface.lambda_s is not None
         filters = ", and do lambda_c and lambda_s leave any" if has_filters else ""
         raise InputError(
-            f"has Sq = {off:.3g} m {how}, less than {_LOWEST:g} m and than is measured, where "
+            f"has Sq = {off:.3g} m {how}, less than {_LEAST_SQ:g} m and than is measured, where "
             f"the largest number of the file is {highest:.3g} m: is the unit right{filters}?"
         )
-    if not off <= _HIGHEST:
+    if not off <= _LARGEST_SQ:
         raise InputError(
-            f"has Sq = {off * 1e6:.3g} um {how}, more than {_HIGHEST * 1e6:g} um and than a "
+            f"has Sq = {off * 1e6:.3g} um {how}, more than {_LARGEST_SQ * 1e6:g} um and than a "
             "lubricated contact has: is the unit right, and is its form taken off?"
         )

@@ -16,10 +16,10 @@ else:
     loading = lazy("tehl.roughness.loading")
     prepare = lazy("tehl.roughness.prepare")
 
-_COARSE = 10.0
-_ALIKE = 1e-6
+_COARSE_RATIO = 10.0
+_MIRROR_TOLERANCE = 1e-6
 """Largest difference of a map and its mirror image that counts as equal, over Sq."""
-_LARGE = 20.0
+_LARGE_RATIO = 20.0
 
 
 class Map(MapSettings):
@@ -36,7 +36,7 @@ class Map(MapSettings):
         if self.y != 0.0 or direction(self.rotate)[1] != 0.0:
             return False
         heights = self._tile.heights
-        return float(abs(heights - heights[::-1]).max()) <= _ALIKE * self.rms
+        return float(abs(heights - heights[::-1]).max()) <= _MIRROR_TOLERANCE * self.rms
 
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:
@@ -90,7 +90,13 @@ class Map(MapSettings):
         return loading.tile_of(self)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return sentences on what is unusual for a contact of ``width`` by ``length`` [m]."""
+        """Return sentences on what is unusual about the map for a contact.
+
+        Parameters
+        ----------
+        width, length : float
+            Axes of the Hertz ellipse along x and y [m].
+        """
         heights = self.load()
         extent = _turned(heights.size, self.rotate)
         sizes = (
@@ -102,9 +108,9 @@ class Map(MapSettings):
             sentences.append(
                 f"{sizes}: the map is smaller than the contact; {BEYOND[self.outside]}"
             )
-        elif min(extent[0] / width, extent[1] / length) > _LARGE:
+        elif min(extent[0] / width, extent[1] / length) > _LARGE_RATIO:
             sentences.append(f"{sizes}: only a small part of the map lies in the contact")
-        if max(heights.pixel) > min(width, length) / _COARSE:
+        if max(heights.pixel) > min(width, length) / _COARSE_RATIO:
             sentences.append(
                 f"the map has points {_micro(*heights.pixel)} apart and the contact measures "
                 f"{_micro(width, length)}: that is too coarse to be roughness, check its size"

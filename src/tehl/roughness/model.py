@@ -15,10 +15,10 @@ from tehl.base.table import Table
 from tehl.base.typing import Array, np
 from tehl.base.units import Height, Length, Quantity, quantity
 
-_ROUNDING = 1e-12
+_COSINE_ROUNDING = 1e-12
 _PER_MEAN = math.sqrt(0.5 * math.pi)
 """Root mean square over mean absolute height of Gaussian heights."""
-_STEEPEST = 0.25
+_LARGEST_STEEPNESS = 0.25
 
 Extent = tuple[tuple[float, float], tuple[float, float]]
 """From where to where a surface is rough along x and along y [m], perhaps without end."""
@@ -86,7 +86,13 @@ class Roughness:
         raise NotImplementedError
 
     def resolved_on(self, dx: float, dy: float) -> "Roughness":
-        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
+        """Return the surface without the waves that a mesh cannot carry.
+
+        Parameters
+        ----------
+        dx, dy : float
+            Mesh widths along x and y [m]; no formula is filtered.
+        """
         del dx, dy
         return self
 
@@ -103,7 +109,13 @@ class RoughnessModel(Roughness, Table):
         return ENDLESS
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return sentences on what is unusual for a contact of ``width`` by ``length`` [m]."""
+        """Return sentences on what is unusual about the surface for a contact.
+
+        Parameters
+        ----------
+        width, length : float
+            Axes of the Hertz ellipse along x and y [m].
+        """
         del width, length
         return ()
 
@@ -126,7 +138,7 @@ class Smooth(RoughnessModel):
 def direction(angle: float) -> tuple[float, float]:
     """Return cosine and sine of ``angle`` [rad], exact at multiples of a right angle."""
     cosine, sine = (
-        round(value) if abs(value - round(value)) < _ROUNDING else value
+        round(value) if abs(value - round(value)) < _COSINE_ROUNDING else value
         for value in (math.cos(angle), math.sin(angle))
     )
     return float(cosine), float(sine)
@@ -143,7 +155,13 @@ class TileModel(RoughnessModel):
         return self._tile.height(x, y)
 
     def resolved_on(self, dx: float, dy: float) -> Roughness:
-        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
+        """Return the surface without the waves that a mesh cannot carry.
+
+        Parameters
+        ----------
+        dx, dy : float
+            Mesh widths along x and y [m]; waves shorter than two of them are lost.
+        """
         return self._tile.resolved_on(dx, dy)
 
 
@@ -153,9 +171,21 @@ def wavelength_of(number: float) -> float:
 
 
 def with_rms(stated: Any, mean: str, rms: str) -> Any:
-    """Return a table with the root mean square height ``rms`` where it has the ``mean`` absolute.
+    """Return a table with the root mean square height in place of the mean absolute height.
 
-    Raises ValueError if it states both, and they differ from those of Gaussian heights.
+    Gaussian heights are assumed, Sq = sqrt(pi/2) Sa.
+
+    Parameters
+    ----------
+    stated : object
+        Table of a surface; anything else is returned as it is.
+    mean, rms : str
+        Keys of both heights.
+
+    Raises
+    ------
+    ValueError
+        If both are stated and differ.
     """
     if not isinstance(stated, Mapping) or stated.get(mean) is None:
         return stated
@@ -169,16 +199,16 @@ def with_rms(stated: Any, mean: str, rms: str) -> Any:
     return {**stated, rms: of_mean}
 
 
-def check_gentle(amplitude: float, **lengths: float) -> None:
+def check_slope(amplitude: float, **lengths: float) -> None:
     """Raise ValueError if an amplitude [m] is large beside a length of its slopes [m].
 
-    Reynolds' equation requires gentle slopes, and most often a unit is wrong.
+    Reynolds' equation requires small slopes, and most often a unit is wrong.
     """
     for name, length in lengths.items():
-        if not abs(amplitude) <= _STEEPEST * length:
+        if not abs(amplitude) <= _LARGEST_STEEPNESS * length:
             raise ValueError(
                 f"amplitude = {amplitude:g} m is not small beside {name} = {length:g} m, at most "
-                f"{_STEEPEST:g} of it: check their units"
+                f"{_LARGEST_STEEPNESS:g} of it: check their units"
             )
 
 

@@ -13,18 +13,18 @@ from tehl.base.typing import Array, BoolArray
 Level = Literal["none", "mean", "plane", "quadratic"]
 Fill = Literal["auto", "linear", "nearest", "refuse"]
 
-FEW, MOST = 0.01, 0.5
+FEW_MISSING, MOST_MISSING = 0.01, 0.5
 """Share of missing points that is filled by default, and that no filling bridges."""
 _NEIGHBOURS, _EXPLAINS = 5, 7
 """Points along the edges of the windows of the medians, and of the range of these."""
-_BEYOND = 5.0
+_OUTLIER_SIGMAS = 5.0
 """Standard deviations beyond which a distance does not count for their size."""
-_ROUNDING = 1e-12
+_RELATIVE_ROUNDING = 1e-12
 _DEGREE = {"mean": 0, "plane": 1, "quadratic": 2}
 _ALPHA = math.sqrt(math.log(2.0) / math.pi)
 _RIM = 12
 """Points of zeros around a flat tile, after which its spline is zero to rounding."""
-_MOST_LEFT, _COUNTS = 0.5, 0.2
+_MOST_LEFT, _BEND_SHARE = 0.5, 0.2
 """Sq without the quadratic over Sq below which it is odd; share of a bend that is named."""
 
 
@@ -81,17 +81,17 @@ def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
     explained = ndimage.maximum_filter(median, _EXPLAINS, mode="nearest")
     explained -= ndimage.minimum_filter(median, _EXPLAINS, mode="nearest")
     off = np.abs(whole - median)
-    rounding = _ROUNDING * float(np.abs(whole).max())
+    rounding = _RELATIVE_ROUNDING * float(np.abs(whole).max())
     limit = np.maximum(explained, max(sigmas * _usual(off[there]), rounding))
     spikes = there & (off > limit)
     return np.where(spikes, np.nan, values), int(spikes.sum())
 
 
 def _usual(distances: Array) -> float:
-    """Return the root mean square of distances without those beyond five times itself."""
+    """Return the root mean square of distances without outliers, beyond five times that value."""
     while True:
         usual = math.sqrt(float(np.mean(distances**2)))
-        kept = distances[distances <= _BEYOND * usual]
+        kept = distances[distances <= _OUTLIER_SIGMAS * usual]
         if kept.size == distances.size:
             return usual
         distances = kept
@@ -106,11 +106,22 @@ def _nearest(values: Array, missing: BoolArray) -> Array:
 
 
 def filled(values: Array, how: Fill, spikes: int = 0) -> Array:
-    """Return heights with their gaps, NaN or infinite, filled.
+    """Return heights with their gaps filled.
 
-    "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest
-    height, "auto" is "linear" for up to 1 % of the points. Raises InputError if more are missing;
-    the message counts the ``spikes`` among them apart.
+    Parameters
+    ----------
+    values : Array
+        (ny, nx) [m]; NaN and infinite values are gaps.
+    how : {"auto", "linear", "nearest", "refuse"}
+        "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest
+        height, "auto" is "linear" for up to 1 % of the points and an error beyond.
+    spikes : int
+        Gaps that were outliers, which the message counts apart.
+
+    Raises
+    ------
+    InputError
+        If more points are missing than ``how`` allows, or more than half of them.
     """
     missing = ~np.isfinite(values)
     if not missing.any():
@@ -131,9 +142,9 @@ def _check_gaps(missing: BoolArray, how: Fill, spikes: int) -> None:
     )
     if share == 1.0:
         raise InputError("has no point with a height")
-    if share > MOST:
+    if share > MOST_MISSING:
         raise InputError(f"{gaps}: that is too much to fill, crop the map")
-    if how == "refuse" or (how == "auto" and share > FEW):
+    if how == "refuse" or (how == "auto" and share > FEW_MISSING):
         raise InputError(f'{gaps}: crop the map, or say how to fill them, fill = "linear"')
 
 
@@ -174,7 +185,14 @@ def _with_membranes(whole: Array, missing: BoolArray) -> Array:
 def levelled(values: Array, how: Level, measured: BoolArray | None = None) -> Array:
     """Return heights without their mean, plane or quadratic form.
 
-    The form is fitted by least squares to the points that were ``measured``; None is all.
+    Parameters
+    ----------
+    values : Array
+        (ny, nx) [m], without gaps.
+    how : {"none", "mean", "plane", "quadratic"}
+        Form that is subtracted, fitted by least squares.
+    measured : BoolArray or None
+        Points that the fit takes, not those that were filled; None is all.
     """
     if how == "none":
         return values
@@ -229,7 +247,15 @@ def gaussian_mean(heights: Array, pixel: tuple[float, float], cut_off: float) ->
 
 
 def tapered(heights: Heights, width: float) -> Array:
-    """Return heights that fall to zero over ``width`` [m] at all edges, with a flat rim around."""
+    """Return heights that fall to zero at all edges, with a flat rim around.
+
+    Parameters
+    ----------
+    heights : Heights
+        (ny, nx) [m] with the distances of their points.
+    width : float
+        Distance over which they fall, by sin^2 [m]; at most half of the map.
+    """
     windows = []
     for count, step in zip(heights.values.shape, reversed(heights.pixel), strict=True):
         edge = np.minimum(np.arange(count) + 0.5, count - np.arange(count) - 0.5)
@@ -266,7 +292,15 @@ def form_of(heights: Heights) -> Form:
 
 
 def note_on_form(heights: Heights, level: Level) -> tuple[str, ...]:
-    """Return a note if more than half of Sq is a quadratic form that ``level`` has left."""
+    """Return a note if more than half of Sq is a quadratic form that is left in the heights.
+
+    Parameters
+    ----------
+    heights : Heights
+        After levelling [m].
+    level : {"none", "mean", "plane", "quadratic"}
+        Form that was subtracted; after "quadratic" there is no note.
+    """
     if level == "quadratic":
         return ()
     form = form_of(heights)
@@ -285,7 +319,7 @@ def _shape(form: Form) -> str:
     bends = [
         f"of {_metres(1.0 / abs(curvature))} along {axis}"
         for axis, curvature, sag in zip("xy", form.curvatures, form.sags, strict=True)
-        if abs(sag) > _COUNTS * whole
+        if abs(sag) > _BEND_SHARE * whole
     ]
     if not bends:
         return "is twisted as a saddle"

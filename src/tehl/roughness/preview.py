@@ -14,9 +14,9 @@ from tehl.roughness.statistics import Spectrum, Statistics, share_beyond, spectr
 
 _PER_PICTURE = 900
 """Most points of a picture along an axis."""
-_WIDEST = 5.0
+_LARGEST_PICTURE_RATIO = 5.0
 """Largest size of a picture over that of its map; beyond, the map would be a dot."""
-_MARGIN = 1.05
+_PICTURE_MARGIN = 1.05
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -56,9 +56,19 @@ class Preview:
 
 
 def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
-    """Return the summary of a measured surface, compared with ``mesh``.
+    """Return the summary of a measured surface.
 
-    Raises InputError as :meth:`tehl.roughness.Map.load`.
+    Parameters
+    ----------
+    surface : Map
+        Read and prepared here.
+    mesh : Mesh or None
+        Mesh of a contact, whose half-widths and filtering the summary compares with.
+
+    Raises
+    ------
+    InputError
+        As :meth:`tehl.roughness.Map.load`.
     """
     heights = surface.load()
     values, pixel = heights.values, heights.pixel
@@ -126,9 +136,9 @@ def _window(found: Preview) -> Extent:
     box = found.surface.box
     if found.mesh is None:
         return box
-    halves = [_MARGIN * half for half in found.mesh.half_widths]
+    halves = [_PICTURE_MARGIN * half for half in found.mesh.half_widths]
     x, y = (
         (min(start, -half), max(end, half)) for (start, end), half in zip(box, halves, strict=True)
     )
     longest = [max(end - start for start, end in one) for one in ((x, y), box)]
-    return (x, y) if longest[0] <= _WIDEST * longest[1] else box
+    return (x, y) if longest[0] <= _LARGEST_PICTURE_RATIO * longest[1] else box

@@ -12,7 +12,7 @@ from tehl.base.units import Angle, Height, Number, PositiveNumber
 from tehl.roughness.model import (
     TileModel,
     Wavelength,
-    check_gentle,
+    check_slope,
     direction,
     wavelength_of,
     with_rms,
@@ -21,13 +21,13 @@ from tehl.roughness.model import (
 if TYPE_CHECKING:
     from tehl.roughness.tile import Tile
 
-_PER_LENGTH, _POINTS = 4, 1024
+_PER_LENGTH, _LATTICE_POINTS = 4, 1024
 """Points per correlation length or cut-off, and of the lattice."""
-_WIDE, _WIDEST = 16.0, 64.0
+_WIDE_RANGE, _LARGEST_RANGE = 16.0, 64.0
 _LENGTHS = ("correlation_length", "roll_off")
-_SHORTEST, _LONGEST = 1e-12, 1e6
+_SHORTEST_LENGTH, _LONGEST_LENGTH = 1e-12, 1e6
 _LARGEST_KURTOSIS = 20.0
-_BINS, _STARTS, _MISSED = 4001, (0.0, 1.0, 3.0), 1e-3
+_FIT_BINS, _STARTS, _LARGEST_FIT_ERROR = 4001, (0.0, 1.0, 3.0), 1e-3
 """Of the fit of skewness and kurtosis: bins, first shifts, and the largest error that is left."""
 
 Seed = Annotated[int, Field(strict=True, ge=0, le=2**53)]
@@ -104,7 +104,7 @@ class Random(TileModel):
         if getattr(self, needed) is None:
             raise ValueError(f'{needed} is missing: give a length such as "20 um"')
         self._check_lengths(needed)
-        check_gentle(self.rms, **dict(zip((needed, f"{needed}_y"), self._lengths, strict=True)))
+        check_slope(self.rms, **dict(zip((needed, f"{needed}_y"), self._lengths, strict=True)))
         return self
 
     @model_validator(mode="after")
@@ -127,16 +127,17 @@ class Random(TileModel):
 
     def _check_lengths(self, needed: str) -> None:
         for key, length in zip((needed, f"{needed}_y"), self._lengths, strict=True):
-            if not _SHORTEST <= length <= _LONGEST:
+            if not _SHORTEST_LENGTH <= length <= _LONGEST_LENGTH:
                 raise ValueError(
-                    f"{key} = {length:g} m must lie between {_SHORTEST:g} m and {_LONGEST:g} m"
+                    f"{key} = {length:g} m must lie between {_SHORTEST_LENGTH:g} m and "
+                    f"{_LONGEST_LENGTH:g} m"
                 )
         if not self.hurst <= 1.0:
             raise ValueError(f"hurst = {self.hurst:g} must not be larger than 1")
-        if not 1.0 <= self._band <= _WIDEST:
+        if not 1.0 <= self._band <= _LARGEST_RANGE:
             raise ValueError(
-                f"cut_off = {self.cut_off:g} m must lie between roll_off/{_WIDEST:g} and roll_off "
-                f"= {self.roll_off:g} m"
+                f"cut_off = {self.cut_off:g} m must lie between roll_off/{_LARGEST_RANGE:g} and "
+                f"roll_off = {self.roll_off:g} m"
             )
 
     @property
@@ -152,13 +153,16 @@ class Random(TileModel):
         """Return the ratio of roll-off and cut-off, one for a Gaussian spectrum."""
         if self.spectrum == "gaussian" or self.roll_off is None:
             return 1.0
-        return self.roll_off / self.cut_off if self.cut_off is not None else _WIDE
+        return self.roll_off / self.cut_off if self.cut_off is not None else _WIDE_RANGE
 
     @property
     def lattice(self) -> tuple[int, tuple[float, float]]:
         """Return points per direction and pixels [m] of the lattice."""
         along, across = (length / self._band / _PER_LENGTH for length in self._lengths)
-        return (_POINTS if self._band <= _WIDE else 2 * _POINTS), (along, across)
+        return (_LATTICE_POINTS if self._band <= _WIDE_RANGE else 2 * _LATTICE_POINTS), (
+            along,
+            across,
+        )
 
     @property
     def period(self) -> tuple[float, float]:
@@ -208,7 +212,13 @@ class Random(TileModel):
         return _tile_of(self)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return a sentence if the surface repeats within a contact of these lengths [m]."""
+        """Return a sentence if the surface repeats within a contact.
+
+        Parameters
+        ----------
+        width, length : float
+            Axes of the Hertz ellipse along x and y [m].
+        """
         if not min(self.period) < math.hypot(width, length) or self.is_smooth:
             return ()
         along, across = (period * 1e6 for period in self.period)
@@ -218,7 +228,13 @@ class Random(TileModel):
         )
 
     def density(self, along: Array, across: Array) -> Array:
-        """Return the power spectral density, one at zero, by wave numbers along u and v [rad/m]."""
+        """Return the power spectral density, one at zero.
+
+        Parameters
+        ----------
+        along, across : Array
+            Wave numbers along both axes of the lay [rad/m], broadcast against each other.
+        """
         first, second = self._lengths
         if self.spectrum == "gaussian":
             return np.exp(-((along * first) ** 2 + (across * second) ** 2) / 4.0)
@@ -258,7 +274,7 @@ def _with_moments(heights: Array, skewness: float, kurtosis: float) -> Array:
     """
     from scipy.optimize import least_squares  # noqa: PLC0415
 
-    count, edges = np.histogram(heights, bins=_BINS)
+    count, edges = np.histogram(heights, bins=_FIT_BINS)
     places, share = 0.5 * (edges[1:] + edges[:-1]), count / count.sum()
 
     def transformed(heights: Array, parameters: Array) -> Array:
@@ -275,7 +291,7 @@ def _with_moments(heights: Array, skewness: float, kurtosis: float) -> Array:
         for start in (_STARTS if skewness else _STARTS[:1])
     ]
     best = min(fits, key=lambda fit: float(fit.cost))
-    if not np.abs(best.fun).max() < _MISSED:
+    if not np.abs(best.fun).max() < _LARGEST_FIT_ERROR:
         raise InputError(
             f"kurtosis = {kurtosis:g} with skewness = {skewness:g} cannot be made of these heights"
         )

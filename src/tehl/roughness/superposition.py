@@ -61,7 +61,13 @@ class _Added(Roughness):
         return total
 
     def resolved_on(self, dx: float, dy: float) -> Roughness:
-        """Return the sum of the parts as a mesh of ``dx`` by ``dy`` [m] carries them."""
+        """Return the sum of the parts as a mesh carries them.
+
+        Parameters
+        ----------
+        dx, dy : float
+            Mesh widths along x and y [m].
+        """
         return Superposition(tuple(part.resolved_on(dx, dy) for part in self.parts))
 
     @property
@@ -94,7 +100,13 @@ class Sum(_Added, RoughnessModel):
     """What is added."""
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return what is unusual about the parts for a contact of ``width`` by ``length`` [m]."""
+        """Return what is unusual about the parts for a contact.
+
+        Parameters
+        ----------
+        width, length : float
+            Axes of the Hertz ellipse along x and y [m].
+        """
         return tuple(line for part in self.parts for line in part.fits(width, length))
 
 

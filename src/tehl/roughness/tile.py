@@ -16,11 +16,11 @@ from scipy import fft, ndimage
 from tehl.base.typing import Array, IntArray
 from tehl.roughness.model import Edge, Roughness, direction
 
-KEPT, LOST = 0.25, 0.5
+PASS_BAND, STOP_BAND = 0.25, 0.5
 """Waves per mesh width up to which all of a wave passes, and from which nothing does."""
 _FADED = 6
 """Mesh widths in which filtered heights fade into a flat rim."""
-_ROOM, _TIMES = 4_000_000, 4
+_MOST_POINTS_OF_TILE, _LARGEST_RIM_FACTOR = 4_000_000, 4
 """Points of a tile with its rim, and over those without, above which it is coarsened."""
 _PER_MESH = 16
 """Points per mesh width of a coarsened tile."""
@@ -96,20 +96,25 @@ class Tile(Roughness):
         return np.pad(ndimage.spline_filter(self.heights, order=3, mode=mode), ((0, 1), (0, 1)))
 
     def resolved_on(self, dx: float, dy: float) -> "Tile":
-        """Return the tile without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry.
+        """Return the tile without the waves that a mesh cannot carry.
 
         The tile itself is returned when it has nothing shorter.
+
+        Parameters
+        ----------
+        dx, dy : float
+            Mesh widths along x and y [m]; for a rotated tile the larger one counts along both axes.
         """
         cosine, sine = direction(self.angle)
         radial = sine != 0 and cosine != 0
         mesh = (max(dx, dy),) * 2 if radial else (dx, dy) if sine == 0 else (dy, dx)
-        if all(0.5 * step / own <= KEPT for step, own in zip(mesh, self.pixel, strict=True)):
+        if all(0.5 * step / own <= PASS_BAND for step, own in zip(mesh, self.pixel, strict=True)):
             return self
         if self.edge == "flat":
             x, y = (
                 math.ceil(_FADED * step / own) for step, own in zip(mesh, self.pixel, strict=True)
             )
-            if is_roomy(self.heights.shape, (x, y)):
+            if _is_roomy(self.heights.shape, (x, y)):
                 return self._coarsened(mesh, (x, y), radial=radial)
             rimmed = np.pad(self.heights, ((y, y), (x, x)))
             tile = replace(self, heights=rimmed, covered=self.covered or self.heights.size)
@@ -145,7 +150,7 @@ class Tile(Roughness):
                 min(count, math.ceil(per_mesh * length / step))
                 for count, length, step in zip(whole, lengths, mesh, strict=True)
             ]
-            for per_mesh in (2.0 * LOST, _PER_MESH)
+            for per_mesh in (2.0 * STOP_BAND, _PER_MESH)
         )
         along, across = (_cosines(kept[k], shape[k], rim[k], whole[k]) for k in (0, 1))
         x, y = (np.arange(kept[k]) / (2.0 * lengths[k]) for k in (0, 1))
@@ -223,10 +228,12 @@ def _on_a_mesh(coefficients: Array, rows: Support, columns: Support) -> Array:
 # ---- the filter of a mesh
 
 
-def is_roomy(shape: tuple[int, ...], rim: tuple[int, int]) -> bool:
+def _is_roomy(shape: tuple[int, ...], rim: tuple[int, int]) -> bool:
     """Return whether a rim of these widths in points makes the heights many times larger."""
     ny, nx = shape
-    return (ny + 2 * rim[1]) * (nx + 2 * rim[0]) > max(_TIMES * ny * nx, _ROOM)
+    return (ny + 2 * rim[1]) * (nx + 2 * rim[0]) > max(
+        _LARGEST_RIM_FACTOR * ny * nx, _MOST_POINTS_OF_TILE
+    )
 
 
 def _cosines(waves: int, count: int, rim: int, whole: int) -> Array:
@@ -249,5 +256,5 @@ def response(x: Array, y: Array, mesh: Pair, *, radial: bool) -> Array:
     """
     y = y[:, None]
     parts = [np.hypot(x, y) * mesh[0]] if radial else [x * mesh[0], y * mesh[1]]
-    beyond = (np.clip((part - KEPT) / (LOST - KEPT), 0.0, 1.0) for part in parts)
+    beyond = (np.clip((part - PASS_BAND) / (STOP_BAND - PASS_BAND), 0.0, 1.0) for part in parts)
     return np.asarray(math.prod(np.cos(0.5 * np.pi * part) ** 2 for part in beyond))

@@ -8,9 +8,9 @@ from pydantic import model_validator
 
 from tehl.base.typing import Array, np
 from tehl.base.units import Angle, Height
-from tehl.roughness.model import RoughnessModel, Wavelength, check_gentle, direction, wavelength_of
+from tehl.roughness.model import RoughnessModel, Wavelength, check_slope, direction, wavelength_of
 
-_ALIKE = 1e-9
+_EQUAL_WAVES = 1e-9
 
 
 class WaveVector(NamedTuple):
@@ -105,8 +105,8 @@ class Wave(HarmonicModel):
     """psi [rad]; zero puts a crest at the origin."""
 
     @model_validator(mode="after")
-    def _must_be_gentle(self) -> Self:
-        check_gentle(self.amplitude, wavelength=self.wavelength)
+    def _must_be_shallow(self) -> Self:
+        check_slope(self.amplitude, wavelength=self.wavelength)
         return self
 
     @property
@@ -150,15 +150,15 @@ class Crossed(HarmonicModel):
     """How the waves combine."""
 
     @model_validator(mode="after")
-    def _must_be_gentle(self) -> Self:
+    def _must_be_shallow(self) -> Self:
         if self.form == "product" and self.amplitude_2 is not None:
             raise ValueError(
                 "amplitude_2 does not apply to a product, which has one amplitude: leave it out or "
                 'use form = "sum"'
             )
-        check_gentle(self.amplitude, wavelength=self.wavelength)
+        check_slope(self.amplitude, wavelength=self.wavelength)
         if self.amplitude_2 is not None:
-            check_gentle(self.amplitude_2, wavelength_2=self.wavelength_2 or self.wavelength)
+            check_slope(self.amplitude_2, wavelength_2=self.wavelength_2 or self.wavelength)
         return self
 
     @property
@@ -195,12 +195,12 @@ def are_even(waves: Sequence[WaveVector]) -> bool:
     mirrored = _spectrum([wave._replace(across=-wave.across) for wave in waves])
     largest = max((wave.amplitude for wave in waves), default=0.0)
     differences = (spectrum.get(key, 0j) - mirrored.get(key, 0j) for key in spectrum | mirrored)
-    return all(abs(difference) <= _ALIKE * largest for difference in differences)
+    return all(abs(difference) <= _EQUAL_WAVES * largest for difference in differences)
 
 
 def _spectrum(waves: Sequence[WaveVector]) -> dict[tuple[int, int], complex]:
     """Return complex amplitudes by wave vector, each vector in the half-plane of positive x."""
-    unit = _ALIKE * max((wave.number for wave in waves), default=1.0) or 1.0
+    unit = _EQUAL_WAVES * max((wave.number for wave in waves), default=1.0) or 1.0
     spectrum: dict[tuple[int, int], complex] = {}
     for wave in waves:
         key = (round(wave.along / unit), round(wave.across / unit))

@@ -11,7 +11,7 @@ from tehl.result.solution import NO_COST, Cost, Solution
 
 Kind = TypeVar("Kind", bound=Solution)
 
-ENOUGH, LONGEST = 0.06, 0.3
+SUFFICIENT_TIMING, LONGEST_TIMING = 0.06, 0.3
 """CPU seconds after which no further transform is timed, a few ticks of any CPU clock, and most
 seconds on a busy machine."""
 TIMED = 513
@@ -34,11 +34,16 @@ class Clock:
 
 
 def fft_seconds(nx: int, ny: int) -> float:
-    """Return the CPU seconds of one zero-padded FFT deformation on ``nx`` by ``ny`` nodes.
+    """Return the CPU seconds of one zero-padded FFT deformation; zero if the clock did not tick.
 
     Real transform, product with a given spectrum, inverse; full domain, period of twice the
     intervals, float64, one thread, reused buffers; mean over one interval, as a CPU clock may tick
-    at 16 ms. Zero if the clock did not tick.
+    at 16 ms.
+
+    Parameters
+    ----------
+    nx, ny : int
+        Nodes along x and y; beyond `TIMED` the time of a smaller transform is extrapolated.
     """
     if max(nx, ny) > TIMED:
         fewer = [min(n, TIMED) for n in (nx, ny)]
@@ -56,8 +61,8 @@ def fft_seconds(nx: int, ny: int) -> float:
         np.fft.irfft(transform, shape[1], axis=1, out=convolved)
 
     deform()
-    start, end, count = time.process_time(), time.perf_counter() + LONGEST, 0
-    while time.process_time() - start < ENOUGH and time.perf_counter() < end:
+    start, end, count = time.process_time(), time.perf_counter() + LONGEST_TIMING, 0
+    while time.process_time() - start < SUFFICIENT_TIMING and time.perf_counter() < end:
         deform()
         count += 1
     return (time.process_time() - start) / max(count, 1)

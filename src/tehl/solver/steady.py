@@ -231,7 +231,7 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
         run = FilmSolver(
             hierarchy, strategy, heights=heights, goal=goal, monitor=history, guess=start
         )
-        # Newton's method costs so much that the cycles before it are tried to the end
+        # Newton's method is expensive: the cycles before it are tried to the end
         only_newton_left = all(one.newton for one in rungs[number + 1 :])
         attempts.append(_run(run, force=only_newton_left))
         if attempts[-1].is_final or goal.is_over:
@@ -250,7 +250,19 @@ def flooded_film(
 ) -> Flooded | None:
     """Solve the same contact, flooded and smooth, on the domain that it needs.
 
-    None for a contact that states no supply, or if the solve does not converge.
+    Parameters
+    ----------
+    problem : ContactProblem
+        Starved; None is returned if it states no supply.
+    options : Options
+        Of the starved solve; domain and edges are chosen anew.
+    monitor : Monitor
+        Receives the cycles.
+
+    Returns
+    -------
+    Flooded or None
+        None also if the solve does not converge.
     """
     if problem.supply is None:
         return None
@@ -313,7 +325,15 @@ def _run(run: FilmSolver, *, force: bool) -> Attempt:
 
 
 def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
-    """Return the grid of the result: the stated or recommended domain, half of it if symmetric."""
+    """Return the grid of the result, half of it if the contact is symmetric.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Its domain is recommended unless one is stated.
+    options : Options
+        With the nodes stated.
+    """
     domain, (ny, nx) = domain_of(scaled, options), options.shape
     halves = options.half_domain == "auto" and scaled.problem.is_even_in_y
     return Grid(nx=nx, ny=ny, domain=domain, mirror=halves and can_mirror(options.shape, domain))

@@ -59,6 +59,13 @@ def answers(contacts: Contacts, store: Store) -> Iterator[dict[str, Any]]:
     """Yield a line for each row: cells, answers with their bars, regime, and how it was obtained.
 
     Rows are taken from the store in parts, so that the memory does not grow with the list.
+
+    Parameters
+    ----------
+    contacts : Contacts
+        Rows of the list; one without a valid case has its message only.
+    store : Store
+        With the finished cases; the other rows have their cells only.
     """
     for first in range(0, len(contacts.rows), _CHUNK):
         part = contacts.rows[first : first + _CHUNK]
@@ -94,7 +101,7 @@ def _obtained(row: Row | None) -> str:
     return text if worst is None else f"{text}, film to {percentage(worst)}"
 
 
-def headings_of(lines: Iterable[Mapping[str, Any]], contacts: Contacts) -> list[str]:
+def _headings_of(lines: Iterable[Mapping[str, Any]], contacts: Contacts) -> list[str]:
     """Return the columns of the answers: those of the list, and those that any line has."""
     seen = dict.fromkeys(name for line in lines for name in line)
     stated = [one.heading for one in contacts.columns if one.heading]
@@ -117,15 +124,25 @@ def check_output(path: Path) -> None:
 
 
 def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
-    """Write the answers as CSV, Excel or Parquet, by the ending of ``path``, or nothing."""
+    """Write the answers as CSV, Excel or Parquet.
+
+    Parameters
+    ----------
+    contacts : Contacts
+        Rows of the list.
+    store : Store
+        With the finished cases.
+    path : Path
+        Ends in .csv, .xlsx or .parquet; written whole or not at all.
+    """
     check_output(path)
-    headings = headings_of(answers(contacts, store), contacts)
+    headings = _headings_of(answers(contacts, store), contacts)
     lines = answers(contacts, store)
     with replacing(path) as temporary:
         if path.suffix.lower() == ".xlsx":
             _write_sheet(headings, lines, temporary)
         else:
-            frame = frame_of(headings, lines)
+            frame = _frame_of(headings, lines)
             if path.suffix.lower() == ".csv":
                 frame.to_csv(temporary, index=False)
             else:
@@ -137,7 +154,7 @@ def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
                 frame.to_parquet(temporary, index=False)
 
 
-def frame_of(headings: Sequence[str], lines: Iterable[Mapping[str, Any]]) -> "pd.DataFrame":
+def _frame_of(headings: Sequence[str], lines: Iterable[Mapping[str, Any]]) -> "pd.DataFrame":
     """Return lines as a frame with these columns."""
     import pandas as pd  # noqa: PLC0415 (0.5 s)
 
@@ -227,6 +244,6 @@ def solve_contacts(
     with closing(opened(store)) as kept:
         run(contacts.cases, kept, jobs=jobs, monitor=monitor)
         lines = list(answers(contacts, kept))
-    found = frame_of(headings_of(lines, contacts), lines)
+    found = _frame_of(_headings_of(lines, contacts), lines)
     found.index = frame.index[-len(found) :]
     return found

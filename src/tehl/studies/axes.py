@@ -27,9 +27,9 @@ Steps = tuple[End, End, Annotated[int, Field(ge=1)]]
 _KINDS = ("values", "file", "linspace", "geomspace", "uniform", "loguniform")
 """Ways to state the values of an axis."""
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+|inf|nan)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
-_DIGITS = 12
+_SIGNIFICANT_DIGITS = 12
 """Significant digits of a value: 0.3, not 0.30000000000000004."""
-_LONGEST = 60
+_LONGEST_VALUE = 60
 """Characters of a value in a message."""
 _TITLES = "name"
 """Column of a list of cases that names them."""
@@ -103,7 +103,7 @@ class Axis(Table):
             words = Counter(json.dumps(one, default=str, sort_keys=True) for one in found or ())
             word, count = next(iter(words.most_common(1)), ("", 0))
             if count > 1:
-                raise ValueError(f"has the {what} {word[:_LONGEST]} twice: give each once")
+                raise ValueError(f"has the {what} {word[:_LONGEST_VALUE]} twice: give each once")
 
     def with_values(self, folder: Path) -> "Axis":
         """Return the axis with the values of its file, whose path begins in ``folder``."""
@@ -148,7 +148,7 @@ def _spread(first: End, last: End, places: Array, *, geometric: bool) -> list[En
         raise ValueError("must have two positive ends to be geometric")
     rest = 1.0 - places  # so that both ends are exact
     numbers = low**rest * high**places if geometric else low * rest + high * places
-    return [_stated(float(f"{number:.{_DIGITS}g}"), unit) for number in numbers]
+    return [_stated(float(f"{number:.{_SIGNIFICANT_DIGITS}g}"), unit) for number in numbers]
 
 
 def _stated(number: float, unit: str) -> End:
@@ -221,7 +221,17 @@ def groups_of(axes: Sequence[Axis]) -> list[list[Axis]]:
 def count_of(group: Sequence[Axis], sample: Sample | None) -> int:
     """Return the number of rows of a group of axes, before they are made.
 
-    Raises a ValueError for zipped axes of different lengths, and sampled ones without a sample.
+    Parameters
+    ----------
+    group : sequence of Axis
+        One axis, axes of one ``zip``, or all sampled ones.
+    sample : Sample or None
+        Number and method of sampled points.
+
+    Raises
+    ------
+    ValueError
+        If zipped axes differ in length, or sampled ones have no sample.
     """
     first = group[0]
     if first.is_sampled:
@@ -238,7 +248,15 @@ def count_of(group: Sequence[Axis], sample: Sample | None) -> int:
 
 
 def block_of(group: Sequence[Axis], sample: Sample | None) -> Block:
-    """Return the block of a group of axes that :func:`count_of` has accepted."""
+    """Return the block of a group of axes that :func:`count_of` has accepted.
+
+    Parameters
+    ----------
+    group : sequence of Axis
+        One axis, axes of one ``zip``, or all sampled ones.
+    sample : Sample or None
+        Places of sampled points in the unit cube.
+    """
     if sample is not None and group[0].is_sampled:
         places = sample.places(len(group))
         columns = [axis.settings(places[:, number]) for number, axis in enumerate(group)]

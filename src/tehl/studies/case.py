@@ -123,9 +123,14 @@ class Row:
 
 
 def retried(case: Case, row: Row) -> Case:
-    """Return a failed case with the settings of its hint, if they are numerical.
+    """Return a failed case with the numerical settings of its hint.
 
-    Others would change the contact.
+    Parameters
+    ----------
+    case : Case
+        As it was solved.
+    row : Row
+        Its failure; a hint outside ``numerics`` would change the contact and is ignored.
     """
     found = row.hint.settings if row.hint else {}
     numerical = all(key.startswith("numerics.") for key in found)
@@ -135,7 +140,15 @@ def retried(case: Case, row: Row) -> Case:
 
 
 def row_of(case: Case, result: Result) -> Row:
-    """Return the row of a result, converged or not."""
+    """Return the row of a result, converged or not.
+
+    Parameters
+    ----------
+    case : Case
+        Gives the key and the settings of the retry.
+    result : Result
+        Its numbers in SI are flattened to paths; None is left out.
+    """
     status, summary = result.status, result.summary()
     numbers = {k: v for k, v in summary.items() if v is not None and k not in _NOT_NUMBERS}
     return Row(

@@ -226,7 +226,17 @@ def _contacts(
 
 
 def contacts_of(frame: "pd.DataFrame", base: dict[str, Any], folder: Path | None) -> Contacts:
-    """Return the list of a frame, of which rows have their numbers from 1."""
+    """Return the list of contacts of a frame.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        A column per quantity, with a unit in its heading; rows are numbered from 1.
+    base : dict
+        Tables of a case that each row completes.
+    folder : Path or None
+        Where relative paths of measured surfaces begin.
+    """
     return _contacts(_lines_of_frame(frame), base, folder)
 
 

@@ -40,8 +40,8 @@ _THREADS = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL
 _ENVIRONMENT = dict.fromkeys((*_THREADS, "PYTHONSAFEPATH"), "1")
 """Of workers: one thread; a random.py in the current folder does not shadow the library's."""
 _STARTS, _PAUSE = 3, 0.1
-"""Attempts to start workers, and seconds between them, for a dying fork server to end."""
-_GRACE = 10.0
+"""Attempts to start workers, and seconds between them, for a crashed fork server to end."""
+_WORKER_GRACE_SECONDS = 10.0
 """Seconds for a terminated worker to end."""
 _STARTING = Lock()
 """Held while the environment of the program is that of workers."""
@@ -80,7 +80,17 @@ class Engine:
         return 1
 
     def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
-        """Call the function now, or as soon as a worker is idle."""
+        """Call a function now, or as soon as a worker is idle.
+
+        Parameters
+        ----------
+        ticket : Ticket
+            Returned with the result.
+        function : callable
+            Importable by workers, so a function of a module.
+        *arguments
+            Must be picklable.
+        """
         self._finished.append((ticket, attempt(function, *arguments)))
 
     def take(self) -> Finished:
@@ -141,7 +151,17 @@ class Pool(Engine):
         return self._jobs
 
     def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
-        """Send a task to an idle process."""
+        """Send a task to an idle process.
+
+        Parameters
+        ----------
+        ticket : Ticket
+            Returned with the result.
+        function : callable
+            Importable by workers, so a function of a module.
+        *arguments
+            Must be picklable.
+        """
         if not self._idle:
             self._idle = self._started(self._jobs - len(self._busy))
         worker = self._idle.pop()
@@ -212,7 +232,7 @@ def end(workers: list[WorkerProcess]) -> None:
         worker.connection.close()
         worker.process.terminate()
     for worker in workers:
-        worker.process.join(_GRACE)
+        worker.process.join(_WORKER_GRACE_SECONDS)
 
 
 @contextmanager

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 Axes = Mapping[str, Sequence[Any]] | Sequence[Axis]
 
-_LARGEST = 10_000
+_MOST_CASES = 10_000
 """Cases of a study that does not state ``largest``."""
 
 
@@ -79,9 +79,9 @@ def read_study(path: str | Path, overrides: Sequence[str] = (), *, unlimited: bo
     try:
         tables = _study_tables(Path(path))
         stated = StudyFile.model_validate(tables)
-        return plan_of(stated, Path(path).parent, overrides, unlimited=unlimited)
+        return _plan_of(stated, Path(path).parent, overrides, unlimited=unlimited)
     except ValidationError as error:
-        raise InputError(f"{shown}: {first_mistake(error, tables)}") from None
+        raise InputError(f"{shown}: {_first_mistake(error, tables)}") from None
     except (InputError, ValueError) as error:
         raise InputError(f"{shown}: {error}") from None
 
@@ -106,7 +106,7 @@ def _brackets(key: str) -> str:
     return f"write [[{key}]], with two brackets"
 
 
-def plan_of(
+def _plan_of(
     stated: StudyFile, folder: Path, overrides: Sequence[str] = (), *, unlimited: bool = False
 ) -> Plan:
     """Return the plan of a study that was read.
@@ -143,7 +143,7 @@ def plan_of(
 
 def _check_keys(stated: StudyFile, count: int, *, unlimited: bool) -> None:
     """Raise for too many cases, and for keys without those that they need."""
-    limit = stated.largest or _LARGEST
+    limit = stated.largest or _MOST_CASES
     if count > limit and not unlimited:
         raise InputError(
             f"has {count:,} cases, more than {limit:,}: if this is intended, state "
@@ -177,7 +177,7 @@ _NEEDED = {
 """What to give for a key that is missing."""
 
 
-def first_mistake(error: ValidationError, tables: Mapping[str, Any]) -> str:
+def _first_mistake(error: ValidationError, tables: Mapping[str, Any]) -> str:
     """Return the first mistake that pydantic found in the tables of a study, in one sentence."""
     sentence = describe(error, tables, StudyFile).replace("a boolean", "true or false")
     missing = [key for key in _NEEDED if sentence.endswith(f"{key} is missing")]
@@ -233,9 +233,9 @@ def cases_of(
     tables = {"case": base, "axes": listed, "sample": sample, "certify": certify}
     try:
         stated = StudyFile.model_validate(tables | {"title": problem.title})
-        return study_of(plan_of(stated, Path(), unlimited=True))
+        return study_of(_plan_of(stated, Path(), unlimited=True))
     except ValidationError as error:
-        raise InputError(first_mistake(error, tables)) from None
+        raise InputError(_first_mistake(error, tables)) from None
     except ValueError as error:
         raise InputError(str(error)) from None
 

@@ -16,8 +16,8 @@ else:
     plots = lazy("tehl.plots")
     notebooks = lazy("tehl.report.notebook")
 
-_ROWS = 30
-_LEAST = 3
+_SHOWN_ROWS = 30
+_LEAST_ROWS = 3
 """Rows that are shown, and converged cases from which on a curve is drawn."""
 
 
@@ -39,8 +39,10 @@ class StudyTable(pd.DataFrame):
         heads = [_head(label, units.get(label, "1")) for label in labels]
         heads += ["status", *(known[key][0] for key in shown)]
         factors = {key: known[key][1] for key in shown}
-        rows = "".join(self._row(row, labels, factors) for row in range(min(len(self), _ROWS)))
-        rest = f"<p>{len(self) - _ROWS} more cases</p>" if len(self) > _ROWS else ""
+        rows = "".join(
+            self._row(row, labels, factors) for row in range(min(len(self), _SHOWN_ROWS))
+        )
+        rest = f"<p>{len(self) - _SHOWN_ROWS} more cases</p>" if len(self) > _SHOWN_ROWS else ""
         head = "".join(f"<th>{escape(word)}</th>" for word in heads)
         page = f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>{rest}"
         return page + self._curve(labels)
@@ -58,7 +60,7 @@ class StudyTable(pd.DataFrame):
         """Return the central film over the first label of numbers, nothing with too few cases."""
         numbers = [label for label in labels if pd.api.types.is_numeric_dtype(self[label])]
         converged = self[self["status"] == "converged"]
-        if not numbers or converged[numbers[0]].nunique() < _LEAST:
+        if not numbers or converged[numbers[0]].nunique() < _LEAST_ROWS:
             return ""
 
         values = converged[numbers[0]]

@@ -27,7 +27,7 @@ else:
     table_columns = lazy("tehl.plots.table_columns")
 
 Range = tuple[float, float]
-_DPI = 200
+_PICTURE_DPI = 200
 _KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file", "format", "title")
 """What ``--plot`` can state."""
 
@@ -122,7 +122,20 @@ def checked_pictures(
 
 
 def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
-    """Draw a table; raise for missing columns and for a table without converged cases."""
+    """Draw a table.
+
+    Parameters
+    ----------
+    picture : Picture
+        Columns, ranges and title.
+    table : DataFrame
+        Of a study, with title and units in ``attrs``.
+
+    Raises
+    ------
+    InputError
+        If a column is missing, or no case converged.
+    """
     if picture.map is not None:
         return table_maps.moes_map(table)
     x, y = str(picture.x), str(picture.y)
@@ -147,7 +160,7 @@ def save(picture: Picture, table: "pd.DataFrame", folder: Path) -> Path:
         Where the file appears, whole or not at all.
     """
     path = folder / picture.file_name
-    plots.save_picture(draw(picture, table), path, dpi=_DPI)
+    plots.save_picture(draw(picture, table), path, dpi=_PICTURE_DPI)
     return path
 
 
@@ -202,7 +215,17 @@ def _conversion(name: str, si: str, unit: str) -> tuple[float, float]:
 
 
 def write_sheet(table: "pd.DataFrame", path: Path, columns: Sequence[str]) -> None:
-    """Write columns of a table as CSV or Excel, by the ending of ``path``; whole or not at all."""
+    """Write columns of a table as CSV or Excel.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Of a study, in SI.
+    path : Path
+        Ends in .csv or .xlsx; written whole or not at all.
+    columns : sequence of str
+        Names, each perhaps with a unit such as ``film.central [nm]``.
+    """
     check_sheet(path)
     found = sheet(table, columns)
     with replacing(path) as temporary:

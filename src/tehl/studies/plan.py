@@ -26,9 +26,9 @@ from tehl.studies.store import Keep, Store
 if TYPE_CHECKING:
     import pandas as pd
 
-_SHOWN = 5
+_LABELS_IN_NAME = 5
 """Labels in the name of a case."""
-_LONGEST = 60
+_LONGEST_LABEL = 60
 """Characters of a label."""
 
 
@@ -130,12 +130,12 @@ def _label(stated: Any, found: Any) -> Label:
         words = [stated[key] for key in ("law", "name", "type") if key in stated]
         if words:
             return str(words[0])
-    return json.dumps(stated, ensure_ascii=False, default=str)[:_LONGEST]
+    return json.dumps(stated, ensure_ascii=False, default=str)[:_LONGEST_LABEL]
 
 
 def _phrases(labels: Mapping[str, Label], units: Mapping[str, str]) -> Iterator[str]:
     """Yield the first labels for the name of a case: load = 20 N."""
-    for name, value in islice(labels.items(), _SHOWN):
+    for name, value in islice(labels.items(), _LABELS_IN_NAME):
         number, unit = str(value), ""
         if isinstance(value, float):
             number, unit = f"{value:.6g}", f" {units.get(name, '1')}".removesuffix(" 1")
@@ -146,14 +146,22 @@ def _phrases(labels: Mapping[str, Label], units: Mapping[str, str]) -> Iterator[
 
 PLAN, TABLE, LOCK = "study.json", "table.csv", "study.lock"
 _PARQUET, _UNITS = "table.parquet", "units.json"
-_FORMAT = 1
+_PLAN_FORMAT = 1
 _REMEDY = (
     "run the study file again with -o and --replace, which writes it anew and keeps finished cases"
 )
 
 
 def store_of(plan: Plan, folder: Path) -> Store:
-    """Return the store of a study, in its folder if it names no other."""
+    """Return the store of a study, in its folder if it names no other.
+
+    Parameters
+    ----------
+    plan : Plan
+        Names the folder of the store, or none, and what is kept of a case.
+    folder : Path
+        Of the study.
+    """
     return Store(plan.store or folder, keep=plan.keep)
 
 
@@ -204,10 +212,23 @@ def _lock(file: IO[bytes], folder: Path) -> None:
 
 
 def save_plan(plan: Plan, folder: Path) -> bool:
-    """Keep a plan, so that the folder can be run again; return whether it is the first."""
+    """Keep a plan, so that the folder can be run again.
+
+    Parameters
+    ----------
+    plan : Plan
+        Axes, base case and settings.
+    folder : Path
+        Of the study; made if it is missing.
+
+    Returns
+    -------
+    bool
+        Whether the folder had no plan before.
+    """
     check_folder(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    content = {"tehl_study": _FORMAT, "plan": TypeAdapter(Plan).dump_python(plan, mode="json")}
+    content = {"tehl_study": _PLAN_FORMAT, "plan": TypeAdapter(Plan).dump_python(plan, mode="json")}
     path, text = folder / PLAN, json.dumps(content, default=str, indent=1)
     is_first = not path.is_file()
     if is_first or path.read_bytes() != text.encode():  # a study continues in a full folder
@@ -225,8 +246,10 @@ def load_plan(folder: Path) -> Plan:
         raise InputError(f"{folder} is not the folder of a study: it has no {PLAN}") from None
     except (OSError, ValueError) as error:
         raise FileFormatError(f"{path} cannot be read ({error}): {_REMEDY}") from None
-    if not isinstance(content, dict) or content.get("tehl_study") != _FORMAT:
-        raise FileFormatError(f"{path} is not the plan of a study of format {_FORMAT}: {_REMEDY}")
+    if not isinstance(content, dict) or content.get("tehl_study") != _PLAN_FORMAT:
+        raise FileFormatError(
+            f"{path} is not the plan of a study of format {_PLAN_FORMAT}: {_REMEDY}"
+        )
     try:
         return TypeAdapter(Plan).validate_python(content["plan"])
     except (KeyError, ValueError) as error:
@@ -235,9 +258,21 @@ def load_plan(folder: Path) -> Plan:
 
 
 def check_same(plan: Plan, folder: Path) -> None:
-    """Raise if a folder holds a study with another base case or other axes.
+    """Check that a folder holds the same study, if any.
 
     Other values along the same axes, and another title, are accepted.
+
+    Parameters
+    ----------
+    plan : Plan
+        Of the study to run.
+    folder : Path
+        Perhaps with the plan of an earlier run.
+
+    Raises
+    ------
+    InputError
+        If the base case or the axes differ.
     """
     if not (folder / PLAN).is_file():
         return
@@ -273,7 +308,17 @@ def remove_outcome(folder: Path) -> None:
 def write_table(frame: "pd.DataFrame", folder: Path) -> list[Path]:
     """Write a table as CSV, its units beside it, and as Parquet where pyarrow is installed.
 
-    Returns the files; each appears whole or not at all.
+    Parameters
+    ----------
+    frame : DataFrame
+        With the units of its columns in ``attrs``.
+    folder : Path
+        Of the study.
+
+    Returns
+    -------
+    list of Path
+        The files; each appears whole or not at all.
     """
     written = [folder / TABLE, folder / _UNITS]
     with replacing(written[0]) as temporary:

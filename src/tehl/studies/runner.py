@@ -39,7 +39,7 @@ _LARGEST_TASK = 32
 """Cases of a task."""
 _SHARES = 4
 """Least number of tasks left for each worker, so that all end at about the same time."""
-_SMALL = 1e-12
+_ZERO_LABEL = 1e-12
 """A label below it is next to zero."""
 _DIED = (
     "the process that solved this case died, and died again with no other case in work; the "
@@ -54,10 +54,26 @@ class StudyMonitor(Protocol):
         """Take a message to the user."""
 
     def begin(self, total: int, reused: int) -> None:
-        """Take the number of cases, and how many of them were finished before."""
+        """Receive the size of a study that begins.
+
+        Parameters
+        ----------
+        total : int
+            Cases of the study.
+        reused : int
+            Those that the store had finished before.
+        """
 
     def finished(self, case: Case, row: Row) -> None:
-        """Take a case that has just been finished."""
+        """Receive a finished case.
+
+        Parameters
+        ----------
+        case : Case
+            As it was solved, perhaps with the settings of a retry.
+        row : Row
+            Its numbers, or its failure.
+        """
 
 
 class Quiet(StudyMonitor):
@@ -209,7 +225,7 @@ def _kind_and_place(case: Case) -> tuple[object, tuple[float, ...]]:
     values = case.labels.values()
     words = tuple(value for value in values if isinstance(value, str))
     # on this scale equal ratios are equal steps, far from zero
-    place = tuple(math.asinh(value / _SMALL) for value in values if not isinstance(value, str))
+    place = tuple(math.asinh(value / _ZERO_LABEL) for value in values if not isinstance(value, str))
     return (tuple(case.labels), words, case.options.points), place
 
 
@@ -329,7 +345,7 @@ _ROW_BYTES, _FILE_BYTES = 3_500, 25_000
 """Of a finished case: its row; its file of fields, beside those by node."""
 _FIELD_BYTES, _LAYER_BYTES = 37, 8
 """Compressed, per node: pressure, film and shear stresses; each layer of temperature."""
-_ENOUGH = 3
+_LEAST_FINISHED = 3
 """Finished cases that show how fast this machine is."""
 
 
@@ -365,7 +381,7 @@ def forecast(
     waiting = [case for key, case in every.items() if key not in finished]
     known = {key: row.cost.cpu_seconds for key, row in finished.items() if row.cost.cpu_seconds > 0}
     estimated = sum(_seconds(every[key]) for key in known)
-    slowness = sum(known.values()) / estimated if len(known) >= _ENOUGH else 1.0
+    slowness = sum(known.values()) / estimated if len(known) >= _LEAST_FINISHED else 1.0
     seconds = [slowness * _seconds(case) for case in waiting]
     workers = max(1, min(jobs, len(waiting)))
     disk = sum(_ROW_BYTES + (_field_bytes(case) if fields else 0) for case in every.values())
@@ -378,18 +394,39 @@ def forecast(
         wall_seconds=longest + (_START_SECONDS if waiting else 0.0),
         disk_bytes=disk,
         memory_bytes=sum(needs[:workers]),
-        is_calibrated=len(known) >= _ENOUGH,
+        is_calibrated=len(known) >= _LEAST_FINISHED,
     )
 
 
 def expected_times(cases: Sequence[Case], finished: Mapping[str, Row]) -> dict[str, float]:
-    """Return the CPU seconds to expect of the cases that are not finished, by their keys."""
+    """Return the CPU seconds to expect of the unfinished cases, by their keys.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        All of the study; equal ones count once.
+    finished : Mapping
+        Rows by key.
+    """
     every = {case.key: case for case in cases}
     return {key: _seconds(case) for key, case in every.items() if key not in finished}
 
 
 def check_memory_of(forecast: Forecast, jobs: int) -> None:
-    """Raise an InputError if all workers together need more memory than is available."""
+    """Check that all workers together fit into the available memory.
+
+    Parameters
+    ----------
+    forecast : Forecast
+        With the memory of all workers together [byte].
+    jobs : int
+        Number of workers; a single one is not checked.
+
+    Raises
+    ------
+    InputError
+        If they need more memory than is available.
+    """
     available = available_memory()
     if available is None or forecast.memory_bytes <= available or jobs < 2:
         return

@@ -22,7 +22,7 @@ from tehl.studies.case import Case, Row
 
 Keep = Literal["summary", "fields"]
 
-_FORMAT = 2
+_STORE_FORMAT = 2
 _TIMEOUT = 60.0
 """Seconds to wait for another study that writes into the same store."""
 _REMEDY = "bring back a copy of it, or remove it and all its cases are solved again"
@@ -35,7 +35,7 @@ CREATE TABLE IF NOT EXISTS rows (
     retry_settings TEXT NOT NULL, summary TEXT NOT NULL,
     cpu_seconds REAL NOT NULL, wall_seconds REAL NOT NULL
 ) WITHOUT ROWID;
-PRAGMA user_version = {_FORMAT};
+PRAGMA user_version = {_STORE_FORMAT};
 """
 
 
@@ -95,6 +95,13 @@ class Store:
         """Return the rows of the finished cases by key, optionally without their summaries.
 
         A case whose row is damaged is not finished.
+
+        Parameters
+        ----------
+        cases : iterable of Case
+            Looked up by their keys.
+        summaries : bool
+            Whether the numbers are read too, which takes most of the time.
         """
         columns = _COLUMNS if summaries else _COLUMNS.replace("summary", "'{}'")
         keys = json.dumps([case.key for case in cases])
@@ -170,10 +177,10 @@ class Store:
         self._connection.text_factory = lambda text: text.decode("utf-8", "replace")
         with self._connected() as connection:
             version = connection.execute("PRAGMA user_version").fetchone()[0]
-            if version not in (0, _FORMAT):
+            if version not in (0, _STORE_FORMAT):
                 self.close()
                 found = f"{self._file} is a store of format {version}"
-                raise FileFormatError(f"{found}, this tehl reads {_FORMAT}: {_REMEDY}")
+                raise FileFormatError(f"{found}, this tehl reads {_STORE_FORMAT}: {_REMEDY}")
             # a kill loses nothing that was committed, and no commit waits for the disk
             with suppress(sqlite3.OperationalError):  # file systems without shared memory
                 connection.execute("PRAGMA journal_mode = WAL")
@@ -209,7 +216,15 @@ class Memory(Store):
         return bool(self._known)
 
     def rows(self, cases: Iterable[Case], *, summaries: bool = True) -> dict[str, Row]:
-        """Return the rows of the finished cases by key."""
+        """Return the rows of the finished cases by key.
+
+        Parameters
+        ----------
+        cases : iterable of Case
+            Looked up by their keys.
+        summaries : bool
+            Not used: the numbers are in memory.
+        """
         del summaries
         keys = dict.fromkeys(case.key for case in cases)
         return {key: self._known[key] for key in keys if key in self._known}

@@ -88,6 +88,13 @@ def missing_column(labels: Iterable[str], name: str) -> str | None:
     """Return why a table with these axes cannot have a column, None where it can.
 
     A picture names the column in full or by its last part, optionally with a minus before it.
+
+    Parameters
+    ----------
+    labels : iterable of str
+        Names of the axes of the study.
+    name : str
+        Full path or last part of it, perhaps with a minus before it.
     """
     wanted = name.removeprefix("-")
     known = [*labels, *_BUILT_IN, *columns()]

@@ -23,7 +23,7 @@ from tehl.kernels.energy.records import (
     Terms,
     Work,
 )
-from tehl.kernels.energy.shear import TINY, stress_at
+from tehl.kernels.energy.shear import LEAST_SQUARED_STRESS, stress_at
 from tehl.kernels.lanes import LANES, Lanes, greater, lesser, where
 from tehl.kernels.raw import lanes
 
@@ -134,7 +134,7 @@ def _inner_row(model: Model, fields: Fields, work: Work, place: Place, k: int) -
     heat = line.h2_over_k * shear
     gain, part, shared = here.slope * heat, 1.0 + 0.0 * heat, 0.0 * heat
     if full:
-        part = -1.0 * lesser(CONDUCTION / (gain + TINY), 1.0)
+        part = -1.0 * lesser(CONDUCTION / (gain + LEAST_SQUARED_STRESS), 1.0)
         shared = heat * (here.exponent - part)
     capacity = model.terms.peclet * line.capacity
     through = here.through * capacity * line.h / line.conductivity

@@ -10,7 +10,7 @@ from tehl.kernels.energy.records import BLOCK, ETA_TERMS, TERMS, Across, Laws, M
 from tehl.kernels.lanes import LANES, Lanes, greater, lesser, log, power_of_two
 from tehl.kernels.raw import lanes
 
-LARGEST_EXPONENT = 690.0
+LARGEST_KERNEL_EXPONENT = 690.0
 MAGIC = 6755399441055744.0  # 1.5 2^52: adding it leaves the nearest integer in the low bits
 LOG2_E = 1.4426950408889634
 LN2_HIGH, LN2_LOW = 0.693147180369123816490, 1.90821492927058770002e-10
@@ -43,7 +43,7 @@ def exponential(x: Lanes) -> Lanes:
 @helper
 def limited(ln_eta: Lanes) -> Lanes:
     """Limit ln eta to the range in which its exponential is finite."""
-    return lesser(greater(ln_eta, -LARGEST_EXPONENT), LARGEST_EXPONENT)
+    return lesser(greater(ln_eta, -LARGEST_KERNEL_EXPONENT), LARGEST_KERNEL_EXPONENT)
 
 
 @helper

@@ -22,9 +22,9 @@ from tehl.kernels.energy.walls import keep_wall, wall_row
 from tehl.kernels.lanes import Lanes, greater, largest, lesser, where
 from tehl.kernels.raw import lanes, raw
 
-LARGEST_STEP = 40.0  # [K] per solution of a column
+LARGEST_KELVIN_STEP = 40.0  # [K] per solution of a column
 LARGEST_FALL = 0.5  # of the stress with it, relative
-LARGEST_GROWTH = 6.0  # of the logarithm of the fluidity with it
+LARGEST_FLUIDITY_GROWTH = 6.0  # of the logarithm of the fluidity with it
 PRESSURISED = 0.02  # pressure above which a change of temperature counts
 
 
@@ -91,15 +91,15 @@ def _take_temperatures(
 ) -> tuple[Lanes, Lanes]:
     """Take the new temperatures; return their mean change and the relative fall of the stress.
 
-    No temperature changes by more than `LARGEST_STEP`. ``new_t`` becomes the change. Changes at
-    pressures below `PRESSURISED` do not count as the largest one.
+    No temperature changes by more than `LARGEST_KELVIN_STEP`. ``new_t`` becomes the change. Changes
+    at pressures below `PRESSURISED` do not count as the largest one.
     """
     line, layers, weights = work.lines[place.block], work.layers[place.block], model.across.weights
     rows = lanes(BLOCK * place.block + GHOSTS)
     mean, most, fall = 0.0 * line.p, 0.0 * line.p, 0.0 * line.p
     for k in range(layers.shape[0]):
         here = layers[k]
-        step = lesser(greater(here.new_t - here.t, -LARGEST_STEP), LARGEST_STEP)
+        step = lesser(greater(here.new_t - here.t, -LARGEST_KELVIN_STEP), LARGEST_KELVIN_STEP)
         here.new_t = step
         here.t = here.t + step
         fields.temperature[place.i + GHOSTS, k, rows] = here.t
@@ -125,7 +125,9 @@ def _follow_temperature(model: Model, fields: Fields, work: Work, place: Place) 
         here.ln_eta = limited(here.ln_eta - thinner)
         here.rho = here.rho + here.rho_t * step
         growth = thinner - (here.exponent - 1.0) * fall
-        growth = exponential(lesser(greater(growth, -LARGEST_GROWTH), LARGEST_GROWTH))
+        growth = exponential(
+            lesser(greater(growth, -LARGEST_FLUIDITY_GROWTH), LARGEST_FLUIDITY_GROWTH)
+        )
         here.fluidity = here.fluidity * growth
         here.tangent_x = here.tangent_x * growth
         here.tangent_y = here.tangent_y * growth

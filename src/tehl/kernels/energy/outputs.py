@@ -12,7 +12,7 @@ from tehl.kernels.energy.records import BLOCK, Fields, Model, Place, Surfaces, W
 from tehl.kernels.energy.walls import store_flux
 from tehl.kernels.raw import lanes
 
-STRAIGHT = 0.03  # excess of the tangent along y that does not change convergence
+NEGLIGIBLE_EXCESS = 0.03  # excess of the tangent along y that does not change convergence
 
 
 @helper
@@ -54,7 +54,7 @@ def _stretches(model: Model, fields: Fields, line: Record, layers: Records, plac
     moments(model.across, layers)
     whole = fields.mobility[i, rows]
     fields.stretch_x[i, rows] = mobility(model.across, layers) / whole
-    if line.askew[0] > STRAIGHT:
+    if line.excess_y[0] > NEGLIGIBLE_EXCESS:
         for k in range(layers.shape[0]):
             here = layers[k]
             here.integrand = here.tangent_y

@@ -24,7 +24,7 @@ LINE = np.dtype(
         (name, np.float64, (LANES,))
         for name in (
             *("p", "h", "p_x", "p_y", "p_t", "capacity", "conductivity", "h2_over_k", "over_scale"),
-            *("tau_x", "tau_y", "thins", "askew", "pull"),
+            *("tau_x", "tau_y", "thins", "excess_y", "pull"),
         )
     ]
     + [("terms", np.float64, (TERMS, LANES))]
@@ -75,9 +75,9 @@ class Laws(NamedTuple):
     the step, of ln eta as a polynomial in ``(1/(T - pole) - middle) over_inverse`` and of rho in
     ``(T - inlet) over_rise``, for T of ``coldest`` to ``hottest``. ``thinning`` (rows, 2): ln F
     and its slope times the step over s/(1 + s), ``per_stress`` rows per unit. ``last_row,
-    last_stress``: rows where the last interval of either begins. ``gentle`` is the dimensionless
-    stress below which ln F is negligible; ``newtonian`` is 1 if it always is, ``uniform`` if the
-    stress at mid-film determines the thinning of all layers.
+    last_stress``: rows where the last interval of either begins. ``newtonian_limit`` is the
+    dimensionless stress below which ln F is negligible; ``newtonian`` is 1 if it always is,
+    ``uniform`` if the stress at mid-film determines the thinning of all layers.
     """
 
     fluid: Array
@@ -94,7 +94,7 @@ class Laws(NamedTuple):
     per_stress: float
     last_row: int
     last_stress: int
-    gentle: float
+    newtonian_limit: float
     newtonian: int
     uniform: int
 

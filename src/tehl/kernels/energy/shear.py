@@ -15,7 +15,7 @@ from tehl.kernels.lanes import Lanes, greater, largest, lesser, log, lookup, roo
 LARGEST_THINNING = 200.0  # ln F
 BEYOND_LIMIT = 1.02  # of a limiting stress; there ln F is above 20
 SETTLED = 1e-5  # step of the stress over its scale; the error left is of the order of its square
-TINY = 1e-300
+LEAST_SQUARED_STRESS = 1e-300
 
 
 @helper
@@ -55,7 +55,7 @@ def set_thinning(model: Model, line: Record) -> bool:
         for arm in (-0.5, 0.5):
             x, y = stress_at(model.terms, line, arm)
             most = max(most, largest(line.over_scale * root(x * x + y * y)))
-    thins = most > model.laws.gentle
+    thins = most > model.laws.newtonian_limit
     line.thins = 1.0 if thins else 0.0
     return thins
 
@@ -73,7 +73,7 @@ def _logarithmic(target: Lanes, rate: Lanes) -> Lanes:
     With r = target/rate that is ``ln r / (r - 1)``; it is one if the target is zero or the rate
     has the opposite sign.
     """
-    ratio = lesser(greater(target / (rate + TINY), 1e-9), 1e9)
+    ratio = lesser(greater(target / (rate + LEAST_SQUARED_STRESS), 1e-9), 1e9)
     other = ratio - 1.0
     far = abs(other) > 1e-6
     grown = where(far, log(ratio) / where(far, other, 1.0), 1.0)
@@ -81,7 +81,7 @@ def _logarithmic(target: Lanes, rate: Lanes) -> Lanes:
 
 
 @helper
-def stress_step(model: Model, line: Record, layers: Records) -> float:
+def _stress_step(model: Model, line: Record, layers: Records) -> float:
     """Take a Newton step of the mid-film stress towards the sliding speed.
 
     The matrix is the derivative of both rates, ``phi (delta_ij + s dlnF/ds tau_i tau_j/|tau|^2)``
@@ -96,7 +96,7 @@ def stress_step(model: Model, line: Record, layers: Records) -> float:
         square = x * x + y * y
         thinner, bend = thinning(model.laws, root(square) * scale)
         rate = layers[k].fluidity * model.across.weights[k] * thinner
-        more = rate * bend / (square + TINY)
+        more = rate * bend / (square + LEAST_SQUARED_STRESS)
         rate_x = rate_x + rate * x
         rate_y = rate_y + rate * y
         xx = xx + rate + more * x * x
@@ -108,7 +108,13 @@ def stress_step(model: Model, line: Record, layers: Records) -> float:
     dx = (yy * rate_x - xy * rate_y) * per_det
     dy = (xx * rate_y - xy * rate_x) * per_det
     step = scale * root(dx * dx + dy * dy)
-    _take_step(model, line, dx, dy, grown * lesser(_longest(line) / (grown * step + TINY), 1.0))
+    _take_step(
+        model,
+        line,
+        dx,
+        dy,
+        grown * lesser(_longest(line) / (grown * step + LEAST_SQUARED_STRESS), 1.0),
+    )
     return largest(step)
 
 
@@ -124,7 +130,9 @@ def _take_step(model: Model, line: Record, dx: Lanes, dy: Lanes, part: Lanes) ->
     """Take a part of a step; the stress stays below `BEYOND_LIMIT` times a limiting stress."""
     x, y = line.tau_x - part * dx, line.tau_y - part * dy
     if model.laws.uniform:
-        factor = lesser(BEYOND_LIMIT / (line.over_scale * root(x * x + y * y) + TINY), 1.0)
+        factor = lesser(
+            BEYOND_LIMIT / (line.over_scale * root(x * x + y * y) + LEAST_SQUARED_STRESS), 1.0
+        )
         x, y = factor * x, factor * y
     line.tau_x = x
     line.tau_y = y
@@ -135,22 +143,23 @@ def thin(model: Model, line: Record, layers: Records, steps: int) -> None:
     """Find the mid-film stress in at most ``steps`` Newton steps, and multiply the fluidity by F.
 
     ``exponent`` is n = dln(rate)/dln(stress); ``tangent_x``, ``tangent_y`` the fluidity of a small
-    change of the stress along x or y; ``askew`` the largest excess of the latter over the fluidity.
+    change of the stress along x or y; ``excess_y`` the largest excess of ``tangent_y`` over the
+    fluidity.
     """
     for _ in range(steps):
-        if stress_step(model, line, layers) < SETTLED:
+        if _stress_step(model, line, layers) < SETTLED:
             break
     along = 0.0 if model.laws.uniform else 1.0
-    askew = 0.0 * line.p
+    excess_y = 0.0 * line.p
     for k in range(layers.shape[0]):
         here = layers[k]
         x, y = stress_at(model.terms, line, _thinning_arm(model, k))
         square = x * x + y * y
         thinner, bend = thinning(model.laws, root(square) * line.over_scale)
-        fluid, more = here.fluidity * thinner, along * bend / (square + TINY)
+        fluid, more = here.fluidity * thinner, along * bend / (square + LEAST_SQUARED_STRESS)
         here.fluidity = fluid
         here.exponent = 1.0 + bend
         here.tangent_x = fluid * (1.0 + more * x * x)
         here.tangent_y = fluid * (1.0 + more * y * y)
-        askew = greater(askew, more * y * y)
-    line.askew = largest(askew)
+        excess_y = greater(excess_y, more * y * y)
+    line.excess_y = largest(excess_y)

@@ -16,7 +16,7 @@ MOST_PERIODS = 4
 """Periods at the end of a run over which a passing wave is fitted."""
 FEWEST_STEPS = 8
 """Time steps per period that a fit needs."""
-_WHOLE = 1e-6
+_WHOLE_NUMBER_TOLERANCE = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -107,12 +107,12 @@ def _periods(run: TransientSolution, surface: int, rate: float, x: float) -> tup
             f"{FEWEST_STEPS} or more; take more nodes"
         )
     left = (float(run.history.time[-1]) - _arrival(run, surface, x)) / period
-    if math.floor(left + _WHOLE) < 1:
+    if math.floor(left + _WHOLE_NUMBER_TOLERANCE) < 1:
         raise InputError(
             f"the wave of surface_{surface} has been at x = {x:g} m for {max(left, 0.0):.2g} "
             "periods: a fit needs one or more; increase transient.duration"
         )
-    return min(math.floor(left + _WHOLE), MOST_PERIODS), steps
+    return min(math.floor(left + _WHOLE_NUMBER_TOLERANCE), MOST_PERIODS), steps
 
 
 def _arrival(run: TransientSolution, surface: int, x: float) -> float:

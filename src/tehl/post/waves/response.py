@@ -22,9 +22,9 @@ from tehl.post.waves.search import distinct_waves
 from tehl.result.solution import Solution
 from tehl.roughness import Map, Random, Sum, WaveVector
 
-REACH = 0.4
+FIT_HALF_WIDTH = 0.4
 """Half-widths on each side of the centre in which waves are fitted: the pressure is even there."""
-FEWEST = 1.5
+LEAST_WAVES = 1.5
 """Waves in that square below which a wave cannot be separated from the shape of the film."""
 _TURN = 0.25
 """Part of a wave in that square below which it is the same as one along an axis."""
@@ -171,7 +171,17 @@ class _Waves:
         return [wave for wave in self.all if self.patch.holds(wave)]
 
     def theory(self, wave: WaveVector, level: FlatFilm, amplitude: float) -> LinearTheory:
-        """Return the ripples of a wave by theory."""
+        """Return the ripples of a wave by theory.
+
+        Parameters
+        ----------
+        wave : WaveVector
+            Stated or found.
+        level : FlatFilm
+            Film and oil in the middle of the contact.
+        amplitude : float
+            Of the undeformed wave [m].
+        """
         drift, straight = self.stated.get(wave, self.drift), self.patch.straight(wave)
         if drift is None:
             return level.theory(straight, amplitude, -self.problem.entrainment_speed, holds=False)
@@ -216,7 +226,9 @@ class _Patch:
 
     @classmethod
     def of(cls, result: Solution) -> "_Patch":
-        columns, rows = (np.abs(axis) <= REACH for axis in (result.scaled.x, result.scaled.y))
+        columns, rows = (
+            np.abs(axis) <= FIT_HALF_WIDTH for axis in (result.scaled.x, result.scaled.y)
+        )
         widths = (result.scales.half_width_x, result.scales.half_width_y)
         return cls(rows, columns, result.x[columns], result.y[rows], widths)
 
@@ -225,19 +237,19 @@ class _Patch:
 
     def counts(self, wave: WaveVector) -> tuple[float, float]:
         """Return how many waves lie in the patch along both axes."""
-        width_x, width_y = (REACH * width / math.pi for width in self.half_widths)
+        width_x, width_y = (FIT_HALF_WIDTH * width / math.pi for width in self.half_widths)
         return abs(wave.along) * width_x, abs(wave.across) * width_y
 
     def holds(self, wave: WaveVector) -> bool:
         """Return whether enough of a wave lies in the patch."""
-        return sum(self.counts(wave)) >= FEWEST
+        return sum(self.counts(wave)) >= LEAST_WAVES
 
     def too_long(self, wave: WaveVector) -> str:
         """Return why a wave has no ripples."""
         return (
             f"{1e6 * wave.wavelength:.4g} um at {math.degrees(wave.angle) + 0.0:.3g} deg is too "
             f"long to part from the shape of the film: {sum(self.counts(wave)):.3g} waves where "
-            f"|X|, |Y| < {REACH:g}, and it takes {FEWEST:g}"
+            f"|X|, |Y| < {FIT_HALF_WIDTH:g}, and it takes {LEAST_WAVES:g}"
         )
 
     def straight(self, wave: WaveVector) -> WaveVector:
@@ -290,7 +302,15 @@ class _Fit:
         return self._pairs(field)[: self.waves]
 
     def carried(self, field: Array, wave: WaveVector) -> float:
-        """Return the amplitude of the streaks that belong to a wave."""
+        """Return the amplitude of the streaks that belong to a wave.
+
+        Parameters
+        ----------
+        field : Array
+            Film or pressure in the patch.
+        wave : WaveVector
+            A transverse one has its own streaks; one without variation along x has none.
+        """
         pairs = zip(self._pairs(field)[self.waves :], self.streaks, strict=True)
         own = (abs(p) for p, number in pairs if math.isclose(number, abs(wave.across)))
         return next(own, 0.0) if wave.along else 0.0

@@ -9,21 +9,21 @@ import numpy as np
 from tehl.base.typing import Array, BoolArray
 from tehl.roughness import WaveVector
 
-REACH = 1.0
+SEARCH_HALF_WIDTH = 1.0
 """Half-widths on each side of the centre in which waves are searched."""
-STRONGEST = 3
+MOST_WAVES = 3
 """Most waves that are reported."""
 CLEAR = 3.0
 """Amplitude of a wave that stands out over that of the next one, at least."""
-FAINTEST = 0.1
+LEAST_RELATIVE_SLOPE = 0.1
 """Slope of a reported wave over that of the steepest, at least."""
 _CANDIDATES = 8
 # In waves over the whole region: the fewest that are searched, the least distance of peaks, and how
 # far a fit may leave its peak.
-_LONGEST, _APART, _MOVES = 1.5, 2.0, 0.35
+_LONGEST_WAVE, _SEPARATION, _MOVES = 1.5, 2.0, 0.35
 _PADDED = 4
-_NODES = 256
-_STEPS = 8
+_SEARCH_NODES = 256
+_SEARCH_STEPS = 8
 _SETTLED = 1e-6
 _UPRIGHT = math.sin(math.radians(0.5))
 
@@ -56,12 +56,13 @@ def distinct_waves(
     -------
     list of WaveVector
         In rad per half-width, amplitudes over the root mean square of the heights in the region;
-        none of them fainter than ``FAINTEST``; one within half a degree of an axis lies on it.
+        none of them fainter than ``LEAST_RELATIVE_SLOPE``; one within half a degree of an axis lies
+        on it.
     """
     columns, rows = (_within(axis) for axis in (x, y))
     region = _Region.of(x[columns], y[rows], heights[rows, columns])
     found: list[WaveVector] = []
-    while len(found) < _CANDIDATES and sum(map(is_short, found)) <= STRONGEST:
+    while len(found) < _CANDIDATES and sum(map(is_short, found)) <= MOST_WAVES:
         start = region.peak(found)
         if start is None:
             break
@@ -75,7 +76,7 @@ def distinct_waves(
             across=wave.across if abs(wave.across) >= wave.number * _UPRIGHT else 0.0,
         )
         for wave in distinct
-        if wave.number * wave.amplitude >= FAINTEST * steepest > 0
+        if wave.number * wave.amplitude >= LEAST_RELATIVE_SLOPE * steepest > 0
     ]
 
 
@@ -84,8 +85,8 @@ def _within(axis: Array) -> slice:
 
     Every other one would show the shortest waves as longer ones.
     """
-    inside = np.flatnonzero(np.abs(axis) <= REACH)
-    left = max(inside.size - _NODES, 0) // 2
+    inside = np.flatnonzero(np.abs(axis) <= SEARCH_HALF_WIDTH)
+    left = max(inside.size - _SEARCH_NODES, 0) // 2
     return slice(int(inside[0]) + left, int(inside[-1]) + 1 - left)
 
 
@@ -94,7 +95,7 @@ def _standing_out(found: Sequence[WaveVector]) -> list[WaveVector]:
     ranked = sorted(found, key=lambda wave: -wave.amplitude)
     falls = [
         place
-        for place in range(1, min(STRONGEST, len(ranked) - 1) + 1)
+        for place in range(1, min(MOST_WAVES, len(ranked) - 1) + 1)
         if ranked[place - 1].amplitude > place * CLEAR * ranked[place].amplitude
     ]
     return ranked[: max(falls, default=0)]
@@ -143,10 +144,10 @@ class _Region:
             distance = np.hypot((along - vector[0]) / bins[0], (across - vector[1]) / bins[1])
             return np.asarray(distance >= waves)
 
-        allowed = apart((0.0, 0.0), _LONGEST)
+        allowed = apart((0.0, 0.0), _LONGEST_WAVE)
         for wave in found:
             for sign in (1.0, -1.0):
-                allowed &= apart((sign * wave.along, sign * wave.across), _APART)
+                allowed &= apart((sign * wave.along, sign * wave.across), _SEPARATION)
         spectrum = np.where(allowed, spectrum, 0.0)
         row, column = np.unravel_index(np.argmax(spectrum), spectrum.shape)
         if not spectrum[row, column] > 0:
@@ -157,7 +158,7 @@ class _Region:
         """Return waves whose vectors fit best, by Gauss and Newton; none leaves its peak."""
         start, limit = np.array(vectors), _MOVES * self.bins
         place = start.copy()
-        for _ in range(_STEPS):
+        for _ in range(_SEARCH_STEPS):
             pairs, matrix = self._pairs(place)
             slopes = [
                 axis * (b * matrix[:, 2 * n] - a * matrix[:, 2 * n + 1])

@@ -48,9 +48,19 @@ def read_npy(path: Path) -> RawMap:
 
 
 def read_npz(path: Path, variable: str | None) -> RawMap:
-    """Return the heights of a ``.npz`` archive, the table called ``variable`` or its only array.
+    """Return the heights of a ``.npz`` archive.
 
-    Raises InputError if it is not clear which array the heights are, and as :func:`read_npy`.
+    Parameters
+    ----------
+    path : Path
+        Archive of arrays; only the chosen one is read.
+    variable : str or None
+        Name of the array of heights; None takes the only one.
+
+    Raises
+    ------
+    InputError
+        If it is not clear which array the heights are, and as :func:`read_npy`.
     """
     try:
         with zipfile.ZipFile(path) as archive:
@@ -65,7 +75,7 @@ def read_npz(path: Path, variable: str | None) -> RawMap:
     except InputError:
         raise
     except Exception as error:  # as damaged archives raise
-        raise InputError(f"is not a whole .npz file: {_short(error)}") from None
+        raise InputError(f"is not a complete .npz file: {_short(error)}") from None
     return RawMap(heights=heights, kind=f"numpy archive, array {name}")
 
 
@@ -101,9 +111,19 @@ def _named(names: list[str], wanted: str | None, kind: str) -> str:
 
 
 def read_instrument(path: Path, name: str) -> RawMap:
-    """Return the heights of a file of an instrument by the reader ``name`` of SurfaceTopography.
+    """Return the heights of a file of an instrument by a reader of SurfaceTopography.
 
-    Raises InputError if SurfaceTopography is not installed, or cannot read the file.
+    Parameters
+    ----------
+    path : Path
+        File whose first channel has the heights.
+    name : str
+        Format as SurfaceTopography calls it.
+
+    Raises
+    ------
+    InputError
+        If SurfaceTopography is not installed, or cannot read the file.
     """
     try:
         with warnings.catch_warnings(action="ignore"):  # of its own optional libraries
@@ -147,10 +167,20 @@ def read_instrument(path: Path, name: str) -> RawMap:
 def read_netcdf(path: Path, variable: str | None) -> RawMap:
     """Return the heights of a NetCDF file, version 3 or 4.
 
-    The file has one variable of two dimensions, or several of which ``variable`` names one. Its
-    attribute ``units`` and coordinates count; the last dimension, or the one called x, is x.
-    Coordinates may fall, as y does in the order of images. Raises InputError if the file cannot be
-    read, or it is not clear what the heights are.
+    The attribute ``units`` and the coordinates count; the last dimension, or the one called x, is
+    x. Coordinates may fall, as y does in the order of images.
+
+    Parameters
+    ----------
+    path : Path
+        File with a variable of two dimensions.
+    variable : str or None
+        Name of the heights, if several variables have two dimensions.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or it is not clear what the heights are.
     """
     import xarray as xr  # noqa: PLC0415 (a second, for this format only)
 

@@ -16,7 +16,7 @@ LARGEST_FILE = 2 * 10**9
 """Bytes of a file."""
 HDF5 = b"\x89HDF"
 """The first bytes of a file in HDF5."""
-_TOLERANCE = 1e-3
+_UNEVENNESS = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -65,12 +65,25 @@ def check_bytes(there: int, needed: int, shape: tuple[int, ...]) -> None:
 
 
 def step(places: Array, axis: str) -> float:
-    """Return the distance of at least two equidistant places; raise InputError for others."""
+    """Return the distance of equidistant places.
+
+    Parameters
+    ----------
+    places : Array
+        Rising coordinates of one axis, in any unit.
+    axis : str
+        Its name, for messages.
+
+    Raises
+    ------
+    InputError
+        If there is one place only, or distances differ by more than 0.1 %.
+    """
     distances = np.diff(places)
     if distances.size == 0:
         raise InputError(f"has one point along {axis}, which is not a map")
     mean = float(np.mean(distances))
-    if not (mean > 0 and np.abs(distances - mean).max() <= _TOLERANCE * mean):
+    if not (mean > 0 and np.abs(distances - mean).max() <= _UNEVENNESS * mean):
         raise InputError(f"has points along {axis} that do not follow at equal, rising distances")
     return mean
 
@@ -97,7 +110,15 @@ def check_hdf5(path: Path) -> None:
 
 
 def shown(text: object, longest: int = 160) -> str:
-    """Return a path or a text for a message: printable, its middle left out when it is long."""
+    """Return a path or a text for a message: printable, its middle left out when it is long.
+
+    Parameters
+    ----------
+    text : object
+        Converted to text; characters that cannot be printed become question marks.
+    longest : int
+        Most characters.
+    """
     line = "".join(c if c.isprintable() else "?" for c in str(text))
     return line if len(line) <= longest else f"{line[: longest // 2 - 3]}...{line[-longest // 2 :]}"
 

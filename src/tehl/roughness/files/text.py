@@ -20,7 +20,7 @@ _LARGEST_TEXT = 10**9
 _COMMENT = ("#", "%", "//")
 _MISSING = {"": "nan", "na": "nan", "n/a": "nan", "bad": "nan", "***": "nan", "-": "nan"}
 _LEAST_COVERED = 0.5
-_DIGITS = 1e-6
+_SPACING_TOLERANCE = 1e-6
 
 
 def read_text(path: Path, layout: Layout) -> RawMap:
@@ -31,8 +31,18 @@ def read_text(path: Path, layout: Layout) -> RawMap:
     names are its header, whose unit, conversion factor and size count; nothing and ``nan`` are
     points without a height, but a mark at the end of a row that is as long as the others without it
     is not a point.
-    ``layout`` = "auto" takes three columns as x, y and z if the first two make a lattice, and never
-    as a table. Raises InputError, with the line, if the file holds anything else.
+
+    Parameters
+    ----------
+    path : Path
+        Text in UTF-8, or in UTF-16 with a byte order mark.
+    layout : {"auto", "matrix", "xyz"}
+        "auto" takes three columns as x, y and z, never as a table.
+
+    Raises
+    ------
+    InputError
+        With the line, if the file holds anything else.
     """
     header = Header()
     table = _table(path, header)
@@ -65,7 +75,7 @@ def _table(path: Path, header: Header) -> Array:
                 f"holds more than {LARGEST_MAP // 10**6} million heights: crop it before"
             )
     if not rows:
-        raise InputError("holds no numbers")
+        raise InputError("contains only text; expected numbers")
     return _evened(rows, marked, numbers)
 
 
@@ -179,7 +189,7 @@ def _lattice(table: Array) -> RawMap:
 def _places(column: Array) -> tuple[Array, "np.ndarray"]:
     """Return the different values of a column, and which of them each row has."""
     values = np.sort(column)
-    near = _DIGITS * max(values[-1] - values[0], 0.0)
+    near = _SPACING_TOLERANCE * max(values[-1] - values[0], 0.0)
     first = np.concatenate(([True], np.diff(values) > near))
     places = values[first]
     return places, np.abs(np.searchsorted(places, column + near, side="right") - 1)

@@ -43,7 +43,7 @@ def read_x3p(path: Path) -> RawMap:
         with zipfile.ZipFile(path) as archive:
             return _map_of(archive)
     except _DAMAGE as error:
-        raise InputError(f"is not a whole x3p file: {str(error)[:100]}") from None
+        raise InputError(f"is not a complete x3p file: {str(error)[:100]}") from None
 
 
 def _map_of(archive: zipfile.ZipFile) -> RawMap:
@@ -183,7 +183,7 @@ def _number(root: Any, path: str, absent: float | None) -> float:
     try:
         return float(text or "")
     except ValueError:
-        raise InputError(f"has no number at {path} of its header") from None
+        raise InputError(f"lacks a number at {path} of its header") from None
 
 
 def _whole(root: Any, name: str) -> int:

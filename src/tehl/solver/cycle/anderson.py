@@ -6,7 +6,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 
-WORSE = 3.0
+DROPPING_RATIO = 3.0
 """Change by a cycle over the smallest one in memory, beyond which the memory is dropped, because it
 belongs to another state."""
 INDEPENDENT = 1e-6
@@ -27,9 +27,15 @@ class Anderson:
         self.changes: list[Array] = []
 
     def combine(self, before: Array, after: Array) -> Array:
-        """Return the start of the next cycle from start and end of the last one, each (n,)."""
+        """Return the start of the next cycle.
+
+        Parameters
+        ----------
+        before, after : Array
+            State at the start and at the end of the last cycle, (n,).
+        """
         change = after - before
-        if self.changes and not _size(change) <= WORSE * min(map(_size, self.changes)):
+        if self.changes and not _size(change) <= DROPPING_RATIO * min(map(_size, self.changes)):
             self.states, self.changes = [], []
         self.states = [*self.states, before][-self.memory - 1 :]
         self.changes = [*self.changes, change][-self.memory - 1 :]

@@ -23,11 +23,11 @@ BLURRED = 12.0
 """Nodes per wave below which the full correction of a grid would overshoot."""
 COMPARABLE = 8.0
 """Nodes per wave from which the film of a grid is comparable with that of the next finer one."""
-RAISED = 1e-4
+RAISED_RESIDUAL = 1e-4
 """Residual at which Newton's method continues with the next part of the heights."""
-FIRST_PART, LEAST_PART = 0.25, 0.02
+FIRST_INCREMENT, LEAST_INCREMENT = 0.25, 0.02
 """First increment of the heights in Newton's method, and the smallest one before it fails."""
-MOST_STEPS, QUICK, SLUGGISH, SMALLER = 12, 6, 9, 0.25
+MOST_NEWTON_STEPS, QUICK_STEPS, SLOW_STEPS, INCREMENT_FACTOR = 12, 6, 9, 0.25
 """Most Newton steps per increment, steps up to which the next increment is larger and beyond which
 it is smaller, and the factor on an increment that failed."""
 
@@ -119,9 +119,19 @@ class Roughness:
         return len(levels) > self.first
 
     def restart(self, number: int, expected_film: float) -> bool:
-        """Restart level ``number`` from the smooth film; the heights are raised there again.
+        """Restart a level from the smooth film; the heights are raised there again.
 
-        Return whether a smooth film is available; if not, the level starts from the Hertz pressure.
+        Parameters
+        ----------
+        number : int
+            Of the level, zero is the coarsest.
+        expected_film : float
+            Central film H from which the Hertz pressure starts.
+
+        Returns
+        -------
+        bool
+            Whether a smooth film is available; if not, the level starts from the Hertz pressure.
         """
         self.first = number
         self.first_comparable = max(self.first_comparable, number)
@@ -161,29 +171,29 @@ def raise_by_newton(
     TouchingError
         When the film of the finest level is not positive with part of the heights.
     DivergedError
-        When an increment of `LEAST_PART` does not converge.
+        When an increment of `LEAST_INCREMENT` does not converge.
     """
-    before, known, size = None, (0.0, level.unknowns()), FIRST_PART
+    before, known, size = None, (0.0, level.unknowns()), FIRST_INCREMENT
     while known[0] < 1.0:
         part = min(known[0] + size, 1.0)
         level.apply_heights(part)
         level.set_unknowns(known[1] if before is None else _extrapolate(before, known, part))
-        steps = _steps_to(RAISED, iterate)
+        steps = _steps_to(RAISED_RESIDUAL, iterate)
         if steps is None:
             refresh()  # the preconditioner belongs to the film that diverged
-            size *= SMALLER
+            size *= INCREMENT_FACTOR
         else:
             before, known = known, (part, level.unknowns())
-            size *= 1.5 if steps <= QUICK else 0.7 if steps > SLUGGISH else 1.0
+            size *= 1.5 if steps <= QUICK_STEPS else 0.7 if steps > SLOW_STEPS else 1.0
             if finest and part < 1.0 and not level.film.h.min() > 0.0:
                 raise TouchingError(part)
-        if size < LEAST_PART:
+        if size < LEAST_INCREMENT:
             raise DivergedError
 
 
 def _steps_to(residual: float, iterate: Callable[[], float]) -> int | None:
     """Iterate until ``residual`` is reached; return the number of steps, None on failure."""
-    for number in range(1, MOST_STEPS + 1):
+    for number in range(1, MOST_NEWTON_STEPS + 1):
         try:
             if iterate() < residual:
                 return number

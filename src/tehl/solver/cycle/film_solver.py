@@ -11,14 +11,14 @@ from tehl.estimate.scaling import Groups
 from tehl.operators.heights import Heights, heights_of
 from tehl.result.bars import ErrorEstimate
 from tehl.result.solution import Solution
-from tehl.solver.cycle.continuation import RAISED, TouchingError
+from tehl.solver.cycle.continuation import RAISED_RESIDUAL, TouchingError
 from tehl.solver.cycle.fmg import full_multigrid
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.iteration import LARGEST_OIL_ERROR, MOST_CYCLES, GridIteration
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.convergence import (
-    LARGEST_CHANGE,
+    LARGEST_CYCLE_CHANGE,
     DivergedError,
     GridTrace,
     converged,
@@ -33,7 +33,7 @@ FIRST_STEPS, TOUCHING_STEPS = 6, 20
 converge does no harm."""
 TOO_COARSE = 0.5
 """Error bar of the film beyond which the grid may be why the cycles do not converge."""
-LEAST_GRIDS = 2
+GRIDS_WITHOUT_BARS = 2
 """Most grids that give no error bars: the coarsest one does not resolve the contact."""
 
 
@@ -140,7 +140,7 @@ class FilmSolver(GridIteration):
 
         The ``last`` one counts too if the solve ended before the next grid.
         """
-        for number in range(len(self.traces) - (1 if last else 2), LEAST_GRIDS - 1, -1):
+        for number in range(len(self.traces) - (1 if last else 2), GRIDS_WITHOUT_BARS - 1, -1):
             trace, level = self.traces[number], self.levels[number]
             if not trace.reports or not self._is_acceptable(trace):
                 continue
@@ -179,7 +179,7 @@ class FilmSolver(GridIteration):
 
     def _is_last(self, levels: Sequence[Level]) -> bool:
         """Return whether a grid is accurate enough, or no finer one may follow."""
-        if not (self.goal.is_open and self.accepted and len(levels) > LEAST_GRIDS):
+        if not (self.goal.is_open and self.accepted and len(levels) > GRIDS_WITHOUT_BARS):
             return False
         # roughness, also such that moves in later, needs the planned grid
         if self.hierarchy.scaled.problem.is_rough or self.coupling.is_pending:
@@ -254,11 +254,15 @@ class FilmSolver(GridIteration):
         # fewer cycles than MOST_CYCLES: it converged before
         falling = last.cycle < MOST_CYCLES or last.residual < self.options.tolerance
         if self.strategy.newton or self.coupling.damping < 1.0:
-            # it may start so close that its residual cannot halve; heat comes step by step
+            # it may start so close that its residual cannot halve; heat is added in increments
             falling = falling or film_converged(trace, self._coarser_trace())
         falling = falling or last.residual < 0.5 * first.residual
         change = last.mean_change if trace.steady else last.change  # single nodes may part
-        return falling and change < LARGEST_CHANGE and abs(last.load_error) < LARGEST_CHANGE
+        return (
+            falling
+            and change < LARGEST_CYCLE_CHANGE
+            and abs(last.load_error) < LARGEST_CYCLE_CHANGE
+        )
 
     def _solve_finest(self) -> None:
         """Iterate on the finest grid; if Newton's method fails, raise the heights on this grid.
@@ -288,6 +292,6 @@ class FilmSolver(GridIteration):
         if not (self.strategy.newton and self.roughness.first < last <= len(self.traces)):
             return False
         level, reports = self.levels[-2], self.traces[last - 1].reports
-        solved = bool(reports) and reports[-1].residual < RAISED
+        solved = bool(reports) and reports[-1].residual < RAISED_RESIDUAL
         # below -floor: negative beyond doubt
         return solved and float(level.film.h.min()) < -level.equations.floor

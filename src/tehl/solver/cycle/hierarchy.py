@@ -29,7 +29,7 @@ LEAST_GRIDS, LARGEST_DENSE = 3, 65
 """Grids that are kept, and most nodes along x of the coarsest, whose matrix is dense, where a wide
 domain makes the coarsest grid too coarse for the pressure: its load then depends on the rigid
 approach in another way, and the cycles diverge."""
-THICK = 0.25
+LEAST_FILM_OF_W_CYCLE = 0.25
 """Expected central film above which two visits help: for a thinner film such a grid has no valid
 discrete solution, and more visits do harm (M = 200 and more on wide domains)."""
 MOST_CARRIED, MOST_HALVINGS = 1.5, 8
@@ -183,9 +183,11 @@ class Hierarchy:
             pre_sweeps=options.pre_sweeps,
             post_sweeps=options.post_sweeps,
             # where oil is conserved the second visit would undo the first
-            twice=mesh_width > UNRESOLVED and self.expected_film > THICK and not conserves,
+            twice=mesh_width > UNRESOLVED
+            and self.expected_film > LEAST_FILM_OF_W_CYCLE
+            and not conserves,
         )
-        # cheap on coarser grids; with 2 + 2 sweeps the film of M = 200, r = 0.2 goes to and fro
+        # cheap on coarser grids; with 2 + 2 sweeps the film of M = 200, r = 0.2 oscillates
         extra = int(conserves and levels[-1] is not self.finest)
         cycle(levels, self.coarsest.step, shape, extra)
 

@@ -13,7 +13,7 @@ from tehl.operators.heights import Heights
 from tehl.result.solution import CycleReport
 from tehl.solver.cycle.anderson import Anderson
 from tehl.solver.cycle.continuation import (
-    MOST_STEPS,
+    MOST_NEWTON_STEPS,
     SMOOTH_CYCLES,
     Roughness,
     TouchingError,
@@ -24,7 +24,7 @@ from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import Newton
 from tehl.solver.judging.convergence import (
-    LARGEST_CHANGE,
+    LARGEST_CYCLE_CHANGE,
     LARGEST_ROUGH_CHANGE,
     SLOW_CYCLES,
     GridTrace,
@@ -39,7 +39,12 @@ from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.measures import film_numbers, measured
 from tehl.solver.judging.outputs import asperity_balance, contact_balance, oil_balance
 from tehl.solver.monitor import Monitor
-from tehl.solver.physics.boundary_contact import CLOSE, TIGHTLY, TouchingNewton, raise_heights
+from tehl.solver.physics.boundary_contact import (
+    BALANCED_OVER_TOLERANCE,
+    BALANCED_RESIDUAL,
+    TouchingNewton,
+    raise_heights,
+)
 from tehl.solver.physics.boundary_cycle import TouchingCycle
 from tehl.solver.physics.thermal import Coupling
 
@@ -62,14 +67,14 @@ LONG_FRONT_CYCLES, LARGEST_OSCILLATION, OSCILLATES = 12, 0.7, 4.0
 """Cycles after which single nodes of a meniscus may oscillate: then the oil flux may change by this
 part of the error to reach, which its bar contains; and factor on the iteration error of the film
 that is always accepted, as it follows these nodes."""
-DECIDED = 0.5
+BALANCED_UP_TO_X = 0.5
 """X up to which sections must pass the same oil: the film upstream decides how much, and at the
 pressure spike a flux of a few percent more or less is local."""
-LARGEST_MADE, ROUNDING = 1e-10, 1e-13
-"""Oil made or lost between surfaces that may touch, over what passes, which takes a few more Newton
-steps, and in tight solves with asperities, over what enters, which takes ten more cycles; and
-residual from which Newton steps end if they gain no more."""
-MADE_BY_CYCLES = 0.01
+LARGEST_MASS_ERROR, ROUNDING_RESIDUAL = 1e-10, 1e-13
+"""Mass-balance error between surfaces that may touch, over what passes, which takes a few more
+Newton steps, and in tight solves with asperities, over what enters, which takes ten more cycles;
+and residual from which Newton steps end if they gain no more."""
+CYCLE_MASS_ERROR = 0.01
 """The same where surfaces touch and cycles end at the error of the grid."""
 STEADY = 1e-3
 """Mean change of the pressure that ends the cycles on a grid where surfaces may touch and that has
@@ -79,7 +84,7 @@ FREE_ORDERS = 4
 meniscus, and the meniscus with it."""
 EXTRAPOLATED_PART = 0.15
 """Iteration error accepted on grids that are extrapolated, over that accepted on others."""
-COMPARED = 3
+COMPARED_GRIDS = 3
 """Grids whose values make error bars."""
 ISOTHERMAL_CYCLES = 4
 """Cycles before damped heat begins."""
@@ -127,7 +132,7 @@ class GridIteration:
         self.from_hertz = False  # the present grid started from the Hertz pressure
         self.is_settled = True  # the meniscus is stationary, and the oil flux is constant
         self.oil_error = 0.0  # relative change of that flux between sections
-        self.made = np.inf  # oil made or lost between surfaces that may touch
+        self.mass_error = np.inf  # mass-balance error between surfaces that may touch
         self.is_balanced = True  # a tight solve with asperities neither makes nor loses oil
 
     @property
@@ -144,7 +149,7 @@ class GridIteration:
         by_cycles = fine.equations.contact_film is not None and not self.strategy.newton
         is_rough = self.roughness.is_on(levels) and not by_cycles  # a node that parts changes more
         trace = GridTrace(
-            largest_change=LARGEST_ROUGH_CHANGE if is_rough else LARGEST_CHANGE,
+            largest_change=LARGEST_ROUGH_CHANGE if is_rough else LARGEST_CYCLE_CHANGE,
             damping=self.coupling.damping,
             negligible=self.goal.negligible * (OSCILLATES if fine.stencil.conserves else 1.0),
             steady=STEADY if by_cycles else 0.0,
@@ -178,7 +183,7 @@ class GridIteration:
         if not finer:
             return self.strategy.patience * self.options.max_cycles
         if newton:
-            return MOST_TOUCHING if isinstance(newton, TouchingNewton) else MOST_STEPS
+            return MOST_TOUCHING if isinstance(newton, TouchingNewton) else MOST_NEWTON_STEPS
         most = MOST_CYCLES
         if equations.contact_film is not None and self.roughness.is_on(levels):
             return MOST_TOUCHING
@@ -240,7 +245,7 @@ class GridIteration:
         for number in range(1, cycles + 1):
             self._iteration(levels, partial(self.hierarchy.cycle, levels), number)
         finer = len(self.levels) - len(levels)
-        full = self.goal.is_open or finer < COMPARED
+        full = self.goal.is_open or finer < COMPARED_GRIDS
         if self.coupling.begin(levels, finest=not finer, full=full):
             for level in levels:
                 level.set_relaxation(self.strategy.relaxation)
@@ -270,13 +275,17 @@ class GridIteration:
             levels[-1],
             coarse_grid(levels, COARSE_TOUCHING),
             order=1 if is_start else 2,
-            closing=(self._balanced_below or CLOSE) if is_last else 0.0,
+            closing=(self._balanced_below or BALANCED_RESIDUAL) if is_last else 0.0,
         )
 
     @property
     def _balanced_below(self) -> float:
         """Residual below which a tight solve balances the oil; zero at other accuracies."""
-        return TIGHTLY * self.options.tolerance if self.options.accuracy == "tight" else 0.0
+        return (
+            BALANCED_OVER_TOLERANCE * self.options.tolerance
+            if self.options.accuracy == "tight"
+            else 0.0
+        )
 
     def _cycle(self, levels: Sequence[Level]) -> Callable[[], None]:
         """Return the cycle on ``levels``, with contact if the heights of the last one may touch."""
@@ -342,7 +351,7 @@ class GridIteration:
         if fine.stencil.conserves == STEADILY:
             rests = fine.relax_fronts()
             fine.update()
-            self.oil_error = oil_balance(fine, until=DECIDED)
+            self.oil_error = oil_balance(fine, until=BALANCED_UP_TO_X)
             largest = LARGEST_OIL_ERROR if fine is self.finest else COARSE_OIL_ERROR
             may_oscillate = self.goal.is_open and number >= LONG_FRONT_CYCLES
             self.is_settled = (rests and self.oil_error <= largest) or (
@@ -352,13 +361,15 @@ class GridIteration:
         heating = self.coupling.update(levels)
         report = self._report(fine, before, number, heating)
         if fine.equations.contact_film is not None and fine is self.finest:
-            before_it, self.made = self.made, contact_balance(fine)
-            rounded = report.residual <= ROUNDING and self.made > 0.5 * before_it
+            before_it, self.mass_error = self.mass_error, contact_balance(fine)
+            rounded = report.residual <= ROUNDING_RESIDUAL and self.mass_error > 0.5 * before_it
             exactly = self.strategy.newton or self.options.accuracy == "tight"
-            largest = LARGEST_MADE if exactly else MADE_BY_CYCLES
-            self.is_settled = self.made <= largest or rounded
+            largest = LARGEST_MASS_ERROR if exactly else CYCLE_MASS_ERROR
+            self.is_settled = self.mass_error <= largest or rounded
         if fine.equations.asperities is not None and self.options.accuracy == "tight":
-            self.is_balanced = fine is not self.finest or asperity_balance(fine) <= LARGEST_MADE
+            self.is_balanced = (
+                fine is not self.finest or asperity_balance(fine) <= LARGEST_MASS_ERROR
+            )
         self.monitor.cycle(report)
         return report
 
@@ -386,5 +397,13 @@ class GridIteration:
 
 
 def coarse_grid(levels: Sequence[Level], nodes: int) -> Grid:
-    """Return the coarsest grid of at least ``nodes`` along x."""
+    """Return the coarsest grid with enough nodes along x, else the finest one.
+
+    Parameters
+    ----------
+    levels : sequence of Level
+        The coarsest first.
+    nodes : int
+        Least number along x.
+    """
     return next((one.grid for one in levels if one.grid.nx >= nodes), levels[-1].grid)

@@ -13,9 +13,9 @@ from tehl.solver.cycle.relaxation import (
     BESIDE_NEWTON,
     BROAD,
     CAREFUL,
+    DAMPED,
     FAST,
     GAUSS_SEIDEL,
-    GENTLE,
     LIMITED,
     ROBUST,
     ROUGH,
@@ -78,7 +78,7 @@ BETWEEN_ASPERITIES = (
     Strategy(relaxation=LIMITED),
     # asperities that carry half the load behind a steep spike: the cycles alone oscillate
     Strategy(relaxation=ROBUST, memory=5, patience=2),
-    Strategy(relaxation=GENTLE, patience=3),
+    Strategy(relaxation=DAMPED, patience=3),
 )
 COUPLED = (
     Strategy(relaxation=BROAD),
@@ -99,7 +99,7 @@ BETWEEN_ROUGH = (
         damping=0.3,
     ),
     Strategy(
-        relaxation=GENTLE,
+        relaxation=DAMPED,
         continuation=Continuation(correction=0.15, limit=0.15, ramp=48, points=12.0),
         memory=10,
         patience=3,
@@ -121,7 +121,7 @@ TOUCHING = (
         patience=2,
     ),
 )
-FIRST = 2
+THIRD_ORDER_STRATEGIES = 2
 """Strategies that are tried with a wedge of third order before one of second order."""
 STATED = {one.name: Strategy(relaxation=one) for one in (FAST, BROAD, ROBUST, GAUSS_SEIDEL)}
 
@@ -132,7 +132,7 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
     Parameters
     ----------
     problem : ContactProblem
-        The contact.
+        Supply, heat, contact and shape decide the strategies.
     options : Options
         A stated ``smoother`` is the only rung.
     rough : bool
@@ -145,13 +145,13 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
     if rough:
         # with heat, Newton steps converge no better than cycles, at ten times the cost
         cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
-        # and their Jacobian does not know partly filled cavities
+        # and their Jacobian lacks partly filled cavities
         return cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
     rungs = _rungs(problem)
     if options.order < 3 or options.wedge_order is not None:
         return rungs
     # behind steep pressure spikes some contacts converge with second order only
-    first = FIRST if problem.asperities is None else FIRST + 1
+    first = THIRD_ORDER_STRATEGIES if problem.asperities is None else THIRD_ORDER_STRATEGIES + 1
     return (*rungs[:first], *(replace(one, wedge_order=2) for one in rungs))
 
 
@@ -163,4 +163,9 @@ def _rungs(problem: ContactProblem) -> tuple[Strategy, ...]:
     if problem.asperities is None:
         return coupled
     limited = replace(COUPLED[1], relaxation=LIMITED)
-    return (*coupled[:FIRST], limited, *coupled[FIRST:], BETWEEN_ASPERITIES[-1])
+    return (
+        *coupled[:THIRD_ORDER_STRATEGIES],
+        limited,
+        *coupled[THIRD_ORDER_STRATEGIES:],
+        BETWEEN_ASPERITIES[-1],
+    )

@@ -29,14 +29,14 @@ PRESSURE_STEP = 1e-6
 FROZEN_BELOW = 1e-3
 """Pressure below which a coarse node beside a cavity keeps its pressure: where the film ends is
 decided on the finest grid alone."""
-NEARER = 0.1
+LEAST_GUESS_GAIN = 0.1
 """Residual of a guess over that of the interpolated coarser film, below which the guess is taken.
 Full multigrid starts near the solution, which few neighbours of a study beat."""
 FRONT_SWEEPS, FRONT_WIDTH, FRONT_RESTS = (4, 16), 6, 0.03
 """Least and most sweeps where a starved film begins, nodes to both sides, and nodes that fill or
-empty over the number of lines from which the meniscus rests. Least CPU time of 20 contacts (M 20 to
-200, r 0.2 to 4, 257 nodes) that all converge."""
-REACH = 1.5
+empty over the number of lines below which the meniscus is stationary. Least CPU time of 20
+contacts (M 20 to 200, r 0.2 to 4, 257 nodes) that all converge."""
+FILM_PER_PRESSURE = 1.5
 """Film of a smooth change of the pressure in the contact, over that change [-]: 4/pi in the middle
 of a uniform one over the Hertz circle, and somewhat more, as too little only takes longer."""
 LARGEST_OILY = 0.1
@@ -207,7 +207,7 @@ class Level:
             self.far_field.set_edges(self.film.p, h)
             self.sources.outside = self.far_field.load(h, self.equations.gap)
         self._meet()
-        self._share(REACH)
+        self._share(FILM_PER_PRESSURE)
         self._is_stale = False
         if self.stencil.conserves == reynolds.STEADILY and self.is_finest:
             self._mark_cavities()
@@ -422,11 +422,11 @@ class Level:
             return
         self.pose_problem()
         here, before = self.state(), self._distance()
-        self.set_state(values_on(self.grid, guess, guess.scaled.pressure), guess.rigid_approach)
+        self.set_state(_values_on(self.grid, guess, guess.scaled.pressure), guess.rigid_approach)
         if guess.asperities is not None:
             pressure = guess.asperities.pressure / guess.scales.hertz_pressure
-            self.film.asperity[:] = values_on(self.grid, guess, pressure)
-        if not self._distance() < NEARER * before:
+            self.film.asperity[:] = _values_on(self.grid, guess, pressure)
+        if not self._distance() < LEAST_GUESS_GAIN * before:
             self.set_state(*here)
 
     def _distance(self) -> float:
@@ -578,7 +578,7 @@ class Level:
         self._is_stale = True
 
 
-def values_on(grid: Grid, guess: Solution, pressure: Array) -> Array:
+def _values_on(grid: Grid, guess: Solution, pressure: Array) -> Array:
     """Return a pressure of a result on ``grid``, bilinear between its nodes [-]."""
     x, y = guess.scaled.x, guess.scaled.y
     if not np.array_equal(grid.x, x):

@@ -32,18 +32,18 @@ from tehl.operators.jacobian import Neighbours, interpolation, jacobian, neighbo
 from tehl.solver.cycle.level import APPROACH_WEIGHT, Level
 from tehl.solver.judging.convergence import DivergedError
 
-ACCURACY, EXACT = 0.03, 0.001
+LINEAR_RESIDUAL, RETRY_RESIDUAL = 0.03, 0.001
 """Relative residual of the linear equations; and in a second solve if that step fails."""
 VECTORS, ROUNDS = 40, 2
 """Directions of the Krylov method per restart, and number of restarts."""
-SLOW = 24
+MOST_PRODUCTS = 24
 """Products with the Jacobian, two per direction, beyond which the next step factorises again."""
-LARGEST_CHANGE, OUTLIERS = 5.0, 5e-4
+LARGEST_NEWTON_CHANGE, OUTLIERS = 5.0, 5e-4
 """Largest change of a pressure per step, in Hertz pressures, and the part of the nodes that is
 clipped without shortening the step: single nodes would change by a hundred."""
-DESCENT, SHORTEST = 0.1, 0.02
+DESCENT, SHORTEST_LINE_STEP = 0.1, 0.02
 """Sufficient over predicted decrease of the residual, and shortest step of the line search."""
-ROUNDING = 1e-8
+IRREDUCIBLE_RESIDUAL = 1e-8
 """Residual that no step can reduce further."""
 
 
@@ -94,12 +94,12 @@ class Newton:
         system, old = System(self), self.preconditioner
         with one_thread():
             try:
-                part = self._damped_step(system, ACCURACY)
+                part = self._damped_step(system, LINEAR_RESIDUAL)
             except DivergedError:  # an inaccurate solution need not reduce the residual
                 if self.preconditioner is old:
                     self.preconditioner = None
-                part = self._damped_step(system, EXACT)
-        if system.products > SLOW or part < 1.0:
+                part = self._damped_step(system, RETRY_RESIDUAL)
+        if system.products > MOST_PRODUCTS or part < 1.0:
             self.preconditioner = None
         return part
 
@@ -118,7 +118,7 @@ class Newton:
         level, start = self.level, self.level.unknowns()
         residual = level.evaluate_residual()
         (step, share), part = limited(change), 1.0 if np.isfinite(change).all() else 0.0
-        while part > SHORTEST:
+        while part > SHORTEST_LINE_STEP:
             level.set_unknowns(start + part * step)
             level.update()
             if level.evaluate_residual() < (1.0 - DESCENT * part * share) * residual:
@@ -126,7 +126,7 @@ class Newton:
             part *= 0.5
         level.set_unknowns(start)
         level.update()
-        if residual < ROUNDING:
+        if residual < IRREDUCIBLE_RESIDUAL:
             return 1.0
         raise DivergedError
 
@@ -171,7 +171,15 @@ class System:
         return np.append(kept, self.newton.load_weights @ pressure)
 
     def solve(self, preconditioner: "Preconditioner", accuracy: float) -> Array:
-        """Return the Newton step of `Level.unknowns`, by GCROT to a relative residual."""
+        """Return the Newton step of `Level.unknowns`, by GCROT.
+
+        Parameters
+        ----------
+        preconditioner : Preconditioner
+            Of this or an earlier step.
+        accuracy : float
+            Relative residual at which the iteration ends [-].
+        """
         size = self.rest.size
         change, _ = gcrotmk(
             LinearOperator((size, size), matvec=self.product, dtype=float),
@@ -225,7 +233,15 @@ class Preconditioner:
         return matrix
 
     def solve(self, system: System, rest: Array) -> Array:
-        """Return an approximate solution of ``system`` for the right-hand side ``rest``."""
+        """Return an approximate solution: coarse-grid correction, then the sparse near field.
+
+        Parameters
+        ----------
+        system : System
+            Its product gives the residual after the coarse-grid correction.
+        rest : Array
+            Right-hand side, (n + 1,): the nodes, then the load.
+        """
         coarse = lu_solve(self.coarse, np.append(self.to_coarse @ rest[:-1], rest[-1]))
         change = np.append(self.to_fine @ coarse[:-1], coarse[-1])
         left = rest - system.product(change)
@@ -234,14 +250,15 @@ class Preconditioner:
 
 
 def limited(change: Array) -> tuple[Array, float]:
-    """Return a step limited to `LARGEST_CHANGE` of each pressure, and its part of ``change``.
+    """Return a limited step, and its part of ``change``.
 
-    The few `OUTLIERS` are clipped and do not shorten the step.
+    No pressure changes by more than `LARGEST_NEWTON_CHANGE`. The few `OUTLIERS` are clipped and do
+    not shorten the step.
     """
     sizes = np.abs(change[:-1])
     last = sizes.size - 1 - int(OUTLIERS * sizes.size)
     most = np.partition(sizes, last)[last]
-    share = LARGEST_CHANGE / max(float(most), LARGEST_CHANGE)
+    share = LARGEST_NEWTON_CHANGE / max(float(most), LARGEST_NEWTON_CHANGE)
     step = share * change
-    step[:-1] = np.clip(step[:-1], -LARGEST_CHANGE, LARGEST_CHANGE)
+    step[:-1] = np.clip(step[:-1], -LARGEST_NEWTON_CHANGE, LARGEST_NEWTON_CHANGE)
     return step, share

@@ -52,7 +52,7 @@ LIMITED = replace(STEEP, name="limited", correction=(0.7, 0.3))
 STEEPER = Relaxation(name="steeper", threshold=10.0, point=0.25, dipole=0.1, stiff=True)
 ROUGH = Relaxation(name="rough", threshold=1.0, point=0.6, dipole=0.4, lines=4)
 CAREFUL = Relaxation(name="careful", threshold=1.0, point=0.5, dipole=0.35, lines=4, stiff=True)
-GENTLE = Relaxation(name="gentle", threshold=1.0, point=0.3, dipole=0.2, lines=4, stiff=True)
+DAMPED = Relaxation(name="damped", threshold=1.0, point=0.3, dipole=0.2, lines=4, stiff=True)
 BESIDE_NEWTON = Relaxation(name="newton", threshold=1.0, point=0.5, dipole=0.35)
 GAUSS_SEIDEL = Relaxation(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
 
@@ -77,7 +77,7 @@ class Smoother(Protocol):
         """
 
 
-def dipole_parts(influence: Influence, stencil: Stencil) -> tuple[float, float]:
+def _dipole_parts(influence: Influence, stencil: Stencil) -> tuple[float, float]:
     """Return the parts by which a dipole lowers each of its neighbours along x and along y.
 
     A quarter each (Venner and Lubrecht 2000) on square cells. On cells longer along one direction
@@ -134,7 +134,19 @@ class LineSmoother:
         self.is_stiff = relaxation.stiff
 
     def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
-        """Relax ``film.p`` in place."""
+        """Relax ``film.p`` in place.
+
+        Parameters
+        ----------
+        film : Film
+            Pressure, film and conductance of the level; ``p`` is overwritten.
+        stencil : Stencil
+            Weights of the Reynolds equation.
+        rhs : Array
+            Right-hand side of the level, (ny, nx).
+        flow : FlowTable
+            Slope of the conductance by pressure, for stiff settings only.
+        """
         if self.is_stiff:
             kernels.stiffen(film, stencil, flow, self.stiffness)
         kernels.relax_lines(film, stencil, rhs, self.workspace)
@@ -150,15 +162,35 @@ class PointSmoother:
         self.omega = relaxation.point
 
     def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
-        """Relax ``film.p`` in place."""
+        """Relax ``film.p`` in place.
+
+        Parameters
+        ----------
+        film : Film
+            Pressure, film and conductance of the level; ``p`` is overwritten.
+        stencil : Stencil
+            Weights of the Reynolds equation.
+        rhs : Array
+            Right-hand side of the level, (ny, nx).
+        flow : FlowTable
+            Not used.
+        """
         del flow
         kernels.relax_points(film, stencil, rhs, self.point, self.omega)
 
 
 def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
-    """Return the smoother of one grid: plain Gauss-Seidel if so named, else by lines."""
+    """Return the smoother of one grid: plain Gauss-Seidel if so named, else by lines.
+
+    Parameters
+    ----------
+    equations : Equations
+        Grid, influence and stencil of the level.
+    relaxation : Relaxation
+        One of the named settings of this module.
+    """
     if relaxation is GAUSS_SEIDEL:
         return PointSmoother(equations.grid, equations.influence, relaxation)
     influence, touches = equations.influence, equations.asperities is not None
-    parts = dipole_parts(influence, equations.stencil)
+    parts = _dipole_parts(influence, equations.stencil)
     return LineSmoother(equations.grid, influence, relaxation, touches=touches, parts=parts)

@@ -18,11 +18,11 @@ from tehl.solver.judging.richardson import (
     estimate,
     with_growing_spike,
 )
-from tehl.solver.judging.verdict import LARGEST_BAR, too_coarse
+from tehl.solver.judging.verdict import LARGEST_FILM_BAR, too_coarse
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import solve
 
-WIDER = 2
+LARGER_DOMAIN_FACTOR = 2
 """Size of the larger domain over that of the result."""
 OUTLET_HALF = 0.5
 """X downstream of which the pressure spike is searched, in Hertz half-widths."""
@@ -96,7 +96,7 @@ def certify(
     message = _message(first, middle, finest, wide)
     result = result.but(status=replace(finest.status, message=message, hint=None))
     worst = widest(result.uncertainty, JUDGED)
-    if worst > LARGEST_BAR:
+    if worst > LARGEST_FILM_BAR:
         _reject(result, too_coarse_to_certify(result, worst))
     return result
 
@@ -163,7 +163,15 @@ def _reject(result: Solution, status: Status) -> NoReturn:
 
 
 def not_certified(result: Solution, why: str) -> Status:
-    """Return ``not_certified``: the finest grid converged, but has no error bar."""
+    """Return ``not_certified``: the finest grid converged, but has no error bar.
+
+    Parameters
+    ----------
+    result : Solution
+        Of the finest grid; the hint names half its mesh widths.
+    why : str
+        Which run failed and how.
+    """
     nodes = 2 * max(result.scaled.x.size, result.scaled.y.size) - 1
     return Status(
         kind="not_converged",
@@ -174,18 +182,42 @@ def not_certified(result: Solution, why: str) -> Status:
 
 
 def too_coarse_to_certify(result: Solution, error: float) -> Status:
-    """Return ``grid_too_coarse`` for a certified result with a relative error bar ``error``."""
+    """Return ``grid_too_coarse`` for a certified result with a wide error bar.
+
+    Parameters
+    ----------
+    result : Solution
+        Of the finest grid.
+    error : float
+        Relative error bar of the film [-].
+    """
     return too_coarse((result.scaled.x.size, result.scaled.y.size), result.scaled_problem, error)
 
 
 def widest(uncertainty: dict[str, Estimate], names: Iterable[str]) -> float:
-    """Return the largest relative error bar; a value extrapolated to zero has an infinite one."""
+    """Return the largest relative error bar [-].
+
+    Parameters
+    ----------
+    uncertainty : dict
+        Values with their bars, by name; an extrapolated zero has an infinite relative bar.
+    names : iterable of str
+        Those that are compared.
+    """
     bars = (uncertainty[name] for name in names)
     return max(abs(bar.uncertainty / bar.value) if bar.value else math.inf for bar in bars)
 
 
 def message_on(grids: list[str], wide: str) -> str:
-    """Return how the runs ended, given for each grid and for the larger domain."""
+    """Return how the runs of a certified result ended.
+
+    Parameters
+    ----------
+    grids : list of str
+        How the run on each grid ended, the coarsest first.
+    wide : str
+        How the run on the larger domain ended.
+    """
     return f"Grids of the error bars: {', '.join(grids)}; larger domain: {wide}."
 
 
@@ -196,7 +228,15 @@ def nodes_of(options: Options) -> str:
 
 
 def halved(options: Options, times: int) -> Options:
-    """Return options of the grid with its intervals halved ``times`` times."""
+    """Return options of a coarser grid.
+
+    Parameters
+    ----------
+    options : Options
+        With the nodes stated, (n - 1) divisible by 2^times.
+    times : int
+        How often the number of intervals is halved.
+    """
     ny, nx = ((n - 1) // 2**times + 1 for n in options.shape)
     return options.on_points(nx, ny)
 
@@ -210,9 +250,17 @@ def certifiable(options: Options) -> Options:
 
 
 def widened(options: Options, finest: Solution) -> Options:
-    """Return options of the larger domain: the nodes of ``finest``, twice its mesh width."""
+    """Return options of the larger domain, on twice the mesh width.
+
+    Parameters
+    ----------
+    options : Options
+        Of the certified run.
+    finest : Solution
+        Its domain is enlarged by `LARGER_DOMAIN_FACTOR`, its number of nodes is kept.
+    """
     x, y = (
-        (WIDER * float(edges[0]), WIDER * float(edges[-1]))
+        (LARGER_DOMAIN_FACTOR * float(edges[0]), LARGER_DOMAIN_FACTOR * float(edges[-1]))
         for edges in (finest.scaled.x, finest.scaled.y)
     )
     edges = "far_field" if options.has_far_field else "zero"

@@ -15,15 +15,20 @@ from tehl.result.solution import CycleReport
 from tehl.solver.judging.extrapolation import Outputs
 
 LEAST_CYCLES = 2
-LEAST_RATE, GUESSED_RATE, LARGEST_RATE, LARGEST_ALTERNATING = 0.2, 0.3, 0.95, 0.8
+LEAST_CONVERGENCE_RATE, GUESSED_RATE, LARGEST_CONVERGENCE_RATE, LARGEST_ALTERNATING = (
+    0.2,
+    0.3,
+    0.95,
+    0.8,
+)
 """Least convergence rate per cycle in iteration errors, its value from one change, and its largest
 value where changes have the same sign, and where they alternate."""
-SLOW, SLOW_CYCLES = 0.8, 8
+SLOW_CONVERGENCE_RATE, SLOW_CYCLES = 0.8, 8
 """Ratio of residuals above which cycles are slow, and how many these are at least: the film hardly
 changes in one of them, and two grids that are as far from their solutions agree by chance."""
 LARGEST_LOAD_ERROR = 1e-3
 """Load error accepted as balance; it changes the film by a tenth of this, relatively."""
-LARGEST_CHANGE = 0.2
+LARGEST_CYCLE_CHANGE = 0.2
 """Change of pressure per cycle, in Hertz pressures, beyond which a grid is not converging. A spike
 that moves by one node changes by less."""
 LARGEST_ROUGH_CHANGE = 0.05
@@ -36,7 +41,7 @@ RISE_ERROR = 0.005
 """Relative iteration error of the largest rise that is always accepted."""
 LEAST_KELVIN = 0.02
 """Change of temperature [K] that is always accepted."""
-TIGHTER = 100.0
+KELVIN_TOLERANCE_FACTOR = 100.0
 """Tolerance of the temperature over that of the film, which the temperature follows."""
 MEAN_CHANGE, KELVIN_CHANGE = 1e-4, 3e-3
 """Sum of the pressure changes in a cycle over the sum of pressures, and largest change of
@@ -56,8 +61,19 @@ class DivergedError(ArithmeticError):
 def check_divergence(report: CycleReport, expected_film: float, *, rough: bool) -> None:
     """Check that an iteration may still converge.
 
-    Raises DivergedError when residual, load error, film or, between rough surfaces, change are too
-    large or NaN.
+    Parameters
+    ----------
+    report : CycleReport
+        Of the last cycle.
+    expected_film : float
+        Central film H; `RUNAWAY` times it is too thick.
+    rough : bool
+        Whether the change of the pressure is limited too.
+
+    Raises
+    ------
+    DivergedError
+        If residual, load error, film or change are too large or NaN.
     """
     largest = RUNAWAY * max(expected_film, 1.0)
     numbers = abs(report.load_error) < RUNAWAY and report.film_central < largest
@@ -72,7 +88,7 @@ class Trace:
     """One film number over the cycles on one grid."""
 
     values: list[float] = field(default_factory=list)
-    least_rate: float = LEAST_RATE
+    least_rate: float = LEAST_CONVERGENCE_RATE
 
     def iteration_error(self) -> float:
         """Estimate the change by all further cycles: d q / (1 - q), last change d, rate q.
@@ -86,7 +102,7 @@ class Trace:
         rate = max(GUESSED_RATE, self.least_rate)
         if len(self.values) > 2:
             before = self.values[-2] - self.values[-3]
-            largest = LARGEST_RATE if last * before > 0.0 else LARGEST_ALTERNATING
+            largest = LARGEST_CONVERGENCE_RATE if last * before > 0.0 else LARGEST_ALTERNATING
             rate = min(max(abs(last / before) if before else 0.0, self.least_rate), largest)
         return abs(last) * rate / (1.0 - rate)
 
@@ -109,7 +125,7 @@ class GridTrace:
     rise: Trace = field(default_factory=Trace)
     reports: list[CycleReport] = field(default_factory=list)
     measured: dict[str, float] = field(default_factory=dict)
-    largest_change: float = LARGEST_CHANGE
+    largest_change: float = LARGEST_CYCLE_CHANGE
     least_cycles: int = LEAST_CYCLES
     damping: float = 1.0
     negligible: float = 0.0
@@ -121,10 +137,16 @@ class GridTrace:
     def __post_init__(self) -> None:
         self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / self.damping))
         for trace in (self.central, self.minimum, self.rise):
-            trace.least_rate = max(LEAST_RATE, 1.0 - self.damping)
+            trace.least_rate = max(LEAST_CONVERGENCE_RATE, 1.0 - self.damping)
 
     def note(self, central: float, minimum: float) -> None:
-        """Append the film before the first cycle."""
+        """Append the film before the first cycle.
+
+        Parameters
+        ----------
+        central, minimum : float
+            Film H of the interpolated start [-].
+        """
         self.central.values.append(central)
         self.minimum.values.append(minimum)
 
@@ -167,7 +189,7 @@ def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
     if options.accuracy == "tight":
         last = now.reports[-1]
         change = max(last.residual, last.change, abs(last.load_error)) / now.damping
-        kelvin = max(abs(last.temperature_rise), 1.0) * TIGHTER * options.tolerance
+        kelvin = max(abs(last.temperature_rise), 1.0) * KELVIN_TOLERANCE_FACTOR * options.tolerance
         return change <= options.tolerance and last.temperature_change <= kelvin
     return film_converged(now, coarser) and temperature_converged(now, coarser)
 
@@ -176,6 +198,13 @@ def temperature_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
     """Whether the iteration error of the largest rise is a third of its discretisation error.
 
     Or below `RISE_ERROR`, or below `LEAST_KELVIN`.
+
+    Parameters
+    ----------
+    now : GridTrace
+        Cycles on this grid.
+    coarser : GridTrace or None
+        Of the grid before, for the discretisation error; None on the first grid.
     """
     last = now.reports[-1]
     largest = LARGEST_KELVIN_CHANGE * abs(last.temperature_rise)
@@ -189,11 +218,19 @@ def temperature_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
 
 
 def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
-    """Whether the iteration error of the film is below a third of its discretisation error."""
+    """Whether the iteration error of the film is below a third of its discretisation error.
+
+    Parameters
+    ----------
+    now : GridTrace
+        Cycles on this grid.
+    coarser : GridTrace or None
+        Of the grid before, for the discretisation error; None on the first grid.
+    """
     if len(now.reports) < now.least_cycles:
         return False
     last = now.reports[-1]
-    least = SLOW if len(now.reports) < SLOW_CYCLES else 1.0
+    least = SLOW_CONVERGENCE_RATE if len(now.reports) < SLOW_CYCLES else 1.0
     if last.residual > least * now.reports[-2].residual:  # its changes are not errors yet
         return False
     if abs(last.load_error) > LARGEST_LOAD_ERROR or last.change > now.largest_change:
@@ -215,7 +252,15 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
 
 
 def stalled(now: GridTrace, patience: int = 1) -> bool:
-    """Whether the residual has not halved over the last 8 ``patience`` cycles."""
+    """Whether the residual has not halved over the last cycles.
+
+    Parameters
+    ----------
+    now : GridTrace
+        Cycles on this grid.
+    patience : int
+        Factor on the 8 cycles that are considered.
+    """
     residuals, cycles = [report.residual for report in now.reports], patience * STALL_CYCLES
     if len(residuals) <= cycles:
         return False

@@ -21,7 +21,7 @@ from tehl.solver.judging.film_summary import film_summary
 LARGEST_TRACTION = 0.1
 """Largest shear stress of oils over pressure."""
 
-RESOLVED = 0.1
+LARGEST_RESOLVED_ERROR = 0.1
 """Expected error of the film from which on a grid does not resolve it."""
 MOST_LOAD = 0.5
 """Part of the load on solids from which on the film decides no number of nodes."""
@@ -148,6 +148,13 @@ def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
     """Return all likely causes as one, named by the first; None without any.
 
     Temperatures and sliding do not affect an isothermal Newtonian film.
+
+    Parameters
+    ----------
+    grid : Grid
+        Finest grid of the failed run.
+    scaled : ScaledProblem
+        Its expected film, temperatures and stresses are compared with limits.
     """
     found = [*_film_below_grid(grid, scaled)]
     if scaled.problem.is_coupled:
@@ -217,15 +224,15 @@ def _film_below_grid(grid: Grid, scaled: ScaledProblem) -> Iterator[LikelyCause]
     if solids_carry(scaled):
         return
     groups, film, here = scaled.groups, film_to_resolve(scaled), min(grid.nx, grid.ny)
-    needed = expected_points(groups, grid.domain, RESOLVED, film=film)
+    needed = expected_points(groups, grid.domain, LARGEST_RESOLVED_ERROR, film=film)
     if not needed > here:
         return
     yield LikelyCause(
         cause="film_below_grid",
         message=(
             f"The expected film is H = {shared_load(scaled).gap:.2g}, which takes about "
-            f"{needed} nodes per direction for an error of {percentage(RESOLVED)}; the grid has "
-            f"{here}."
+            f"{needed} nodes per direction for an error of {percentage(LARGEST_RESOLVED_ERROR)}; "
+            f"the grid has {here}."
         ),
         hint=grid_hint(grid.points, scaled),
     )
@@ -237,14 +244,23 @@ def _round(value: float) -> str:
 
 
 def grid_hint(points: tuple[int, int], scaled: ScaledProblem) -> Hint:
-    """Return the hint to the recommended grid, at least twice as fine as ``points``.
+    """Return the hint to the recommended grid, at least twice as fine as the present one.
 
     Where solids carry most of the load no film recommends one.
+
+    Parameters
+    ----------
+    points : (int, int)
+        Nodes (nx, ny) of the present grid.
+    scaled : ScaledProblem
+        With the film to resolve.
     """
     nodes = 2 * max(points) - 1
     if not solids_carry(scaled):
         domain, film = chosen_domain(scaled, USUAL_PLAIN_ERROR), film_to_resolve(scaled)
-        nodes = max(nodes, expected_points(scaled.groups, domain, RESOLVED, film=film))
+        nodes = max(
+            nodes, expected_points(scaled.groups, domain, LARGEST_RESOLVED_ERROR, film=film)
+        )
     return Hint(settings={"numerics.points": nodes})
 
 

@@ -75,6 +75,11 @@ def extrapolated(fine: Outputs, coarse: Outputs) -> Outputs:
 
     The difference at the nodes of the coarser grid is interpolated linearly: it is of second order,
     so that the error is of fourth. Where the oil is stays that of the finer grid: its edge moves.
+
+    Parameters
+    ----------
+    fine, coarse : Outputs
+        On grids of one domain, whose intervals differ by a factor of two.
     """
     found = _combined(fine, coarse)
     return replace(found, extras=replace(found.extras, oil=fine.extras.oil))

@@ -8,17 +8,25 @@ from tehl.base.typing import Array, IntArray
 from tehl.estimate.grid import Grid
 from tehl.result.fields import FilmSummary
 
-REACH = 5
+SPLINE_NODES = 5
 """Nodes on each side of the smallest one in the spline."""
-SPAN = 1.5
+SPLINE_SPAN = 1.5
 """Distance from the smallest node within which the minimum is searched, in mesh widths."""
-SAMPLES = 121
+SPLINE_SAMPLES = 121
 """Samples of the spline per direction: the minimum of the samples is above that of the spline by
 1e-4 of the change over one mesh width."""
 
 
 def central_value(grid: Grid, field: Array) -> float:
-    """Return ``field`` at X = Y = 0: the node there, else cubic interpolation."""
+    """Return a field at X = Y = 0: the node there, else cubic interpolation.
+
+    Parameters
+    ----------
+    grid : Grid
+        On mirrored grids row 0 is the line y = 0.
+    field : Array
+        Nodal values, ``grid.shape``.
+    """
     columns, column_weights = _lagrange(grid.x, grid.dx)
     if grid.mirror:
         return float(field[0, columns] @ column_weights)
@@ -44,15 +52,22 @@ def film_summary(grid: Grid, film: Array, least: float | None = None) -> FilmSum
     """Return central and minimum film H, the minimum from a bicubic spline around its node.
 
     The valley of a side lobe is narrow and oblique to the grid: its minimum may be more than a mesh
-    width from the smallest node, beyond the reach of a quadratic through the neighbours. ``film``
-    has the shape of ``grid`` [-]. Between nodes that touch the film is the boundary film ``least``,
-    not less.
+    width from the smallest node, beyond the reach of a quadratic through the neighbours.
+
+    Parameters
+    ----------
+    grid : Grid
+        Nodes of the film.
+    film : Array
+        H at the nodes [-], ``grid.shape``.
+    least : float or None
+        Boundary film H, the minimum between nodes that touch; None where surfaces do not touch.
     """
     full = grid.unfold(film)
     row = grid.domain.y[0] + grid.dy * np.arange(grid.ny)
     j, i = (int(n) for n in np.unravel_index(int(full.argmin()), full.shape))
-    # `REACH` nodes on each side of (j, i), symmetrically fewer near edges
-    across, along = min(REACH, j, grid.ny - 1 - j), min(REACH, i, grid.nx - 1 - i)
+    # `SPLINE_NODES` nodes on each side of (j, i), symmetrically fewer near edges
+    across, along = min(SPLINE_NODES, j, grid.ny - 1 - j), min(SPLINE_NODES, i, grid.nx - 1 - i)
     patch = full[j - across : j + across + 1, i - along : i + along + 1]
     minimum, (shift_y, shift_x) = subgrid_minimum(patch)
     at_y, floor = float(row[j] + shift_y * grid.dy), -np.inf if least is None else least
@@ -67,13 +82,14 @@ def film_summary(grid: Grid, film: Array, least: float | None = None) -> FilmSum
 def subgrid_minimum(patch: Array) -> tuple[float, tuple[float, float]]:
     """Return the minimum of a bicubic spline through ``patch``, and its place.
 
-    The place is (row, column) from the central node in mesh widths, at most `SPAN` each.
+    The place is (row, column) from the central node in mesh widths, at most `SPLINE_SPAN` each.
     """
     rows, columns = (_sampling(n) for n in patch.shape)
     samples = rows @ patch @ columns.T
     j, i = np.unravel_index(int(samples.argmin()), samples.shape)
     places = [
-        np.linspace(-SPAN, SPAN, len(m)) if len(m) > 1 else np.zeros(1) for m in (rows, columns)
+        np.linspace(-SPLINE_SPAN, SPLINE_SPAN, len(m)) if len(m) > 1 else np.zeros(1)
+        for m in (rows, columns)
     ]
     return float(samples[j, i]), (float(places[0][j]), float(places[1][i]))
 
@@ -95,7 +111,7 @@ def _sampling(nodes: int) -> Array:
     # not-a-knot: the third derivative is continuous at the second and the last but one node
     system[0, :3] = system[-1, -3:] = 1.0, -2.0, 1.0
     curvature = np.linalg.solve(system, bend)
-    place = half + np.linspace(-SPAN, SPAN, SAMPLES)
+    place = half + np.linspace(-SPLINE_SPAN, SPLINE_SPAN, SPLINE_SAMPLES)
     left = np.floor(place).astype(int)
     t = (place - left)[:, None]
     value = np.eye(nodes)

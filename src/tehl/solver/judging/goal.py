@@ -23,9 +23,9 @@ MOST_TRIES = 2
 """Finer grids that follow grids on which the cycles do not converge."""
 LEAST_HALVINGS = 3
 """Halvings of the smallest grid that is planned."""
-NEGLIGIBLE = 0.05
+NEGLIGIBLE_ITERATION_ERROR = 0.05
 """Iteration error that is accepted, over the error to reach: the error bars contain it."""
-LARGEST = 16385
+MOST_NODES_PER_AXIS = 16385
 """Most nodes along one direction."""
 
 
@@ -104,7 +104,7 @@ class Goal:
     @property
     def negligible(self) -> float:
         """Relative iteration error of the film that is always accepted [-]."""
-        return NEGLIGIBLE * self.options.target if self.is_open else 0.0
+        return NEGLIGIBLE_ITERATION_ERROR * self.options.target if self.is_open else 0.0
 
     def fitting(self, plan: Options) -> Options:
         """Return options of the planned grid, halved until it fits into the memory."""
@@ -151,9 +151,14 @@ class Goal:
         return self.may_refine(level)
 
     def may_refine(self, level: Level, errors: ErrorEstimate | None = None) -> bool:
-        """Return whether a grid of twice the intervals may follow ``level``; else say why.
+        """Return whether a grid of twice the intervals may follow; if not, `obstacle` says why.
 
-        It would not reduce the part of the domain in the ``errors``.
+        Parameters
+        ----------
+        level : Level
+            Finest level so far.
+        errors : ErrorEstimate or None
+            Of that level; the part of the domain would not become smaller.
         """
         nx, ny = (2 * (n - 1) + 1 for n in level.grid.points)
         now, limit = time.perf_counter(), self.options.max_time
@@ -166,8 +171,8 @@ class Goal:
             if isinstance(self.options.domain, Domain):
                 cause = "numerics.domain"
             self.obstacle = f"{percentage(errors.domain)} are due to {cause}"
-        elif max(nx, ny) > LARGEST:
-            self.obstacle = f"grids have at most {LARGEST} nodes along one direction"
+        elif max(nx, ny) > MOST_NODES_PER_AXIS:
+            self.obstacle = f"grids have at most {MOST_NODES_PER_AXIS} nodes along one direction"
         elif needed > available:
             self.obstacle = (
                 f"{nx} x {ny} nodes need {needed / 1e9:.2g} GB of memory, and "

@@ -4,7 +4,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from tehl.contact.boundary_contact import MARGIN
+from tehl.contact.boundary_contact import TOUCHING_MARGIN
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState
 from tehl.operators.film import hertz_pressure
@@ -76,7 +76,7 @@ def shared_load(level: Level) -> float:
         return level.asperity_load()
     if not level.film.asperity.any():  # the oil carries all
         return 0.0
-    meets = level.film.h <= (1.0 + MARGIN) * least
+    meets = level.film.h <= (1.0 + TOUCHING_MARGIN) * least
     return level.equations.load.integral(np.where(meets, level.pressure, 0.0)) / level.sources.load
 
 
@@ -108,7 +108,7 @@ def mid_film_traction(
     stress = newtonian_sliding(level, scaled) if state is None else state.view("tau_x").T
     wet, scales = stress * zone_of(level.grid) * wet_part(level.film.p), scaled.scales
     if level.film.asperity.any():
-        wet[level.film.h <= (1.0 + MARGIN) * (level.equations.contact_film or 0.0)] = 0.0
+        wet[level.film.h <= (1.0 + TOUCHING_MARGIN) * (level.equations.contact_film or 0.0)] = 0.0
     area = scales.half_width_x * scales.half_width_y
     unit = stress_unit(scales) * area / (scales.load * load)
     return level.equations.load.integral(wet) * unit

@@ -25,7 +25,15 @@ from tehl.solver.cycle.level import Level
 
 
 def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
-    """Return the shear stress of an isothermal Newtonian film, from pressure and film."""
+    """Return the shear stress of an isothermal Newtonian film, from pressure and film.
+
+    Parameters
+    ----------
+    level : Level
+        Finest level with its pressure and film up to date.
+    scaled : ScaledProblem
+        With the slide-roll ratio and the stress unit.
+    """
     grid, groups = level.grid, scaled.groups
     slope_x, _ = pressure_slopes(grid, groups, level.film.p)
     sliding = newtonian_sliding(level, scaled)
@@ -41,7 +49,15 @@ def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
 
 
 def newtonian_sliding(level: Level, scaled: ScaledProblem) -> Array:
-    """Return the mid-film stress -SRR eta/h of an isothermal Newtonian film, ``grid.shape`` [-]."""
+    """Return the mid-film stress -SRR eta/h of an isothermal Newtonian film, ``grid.shape`` [-].
+
+    Parameters
+    ----------
+    level : Level
+        The film counts from the floor of the conductance on.
+    scaled : ScaledProblem
+        With the slide-roll ratio and the viscosity at the inlet temperature.
+    """
     problem, scales = scaled.problem, scaled.scales
     if problem.slide_roll_ratio == 0:
         return np.zeros(level.grid.shape)
@@ -116,7 +132,15 @@ def heat_balance(state: FilmState) -> HeatBalance:
 
 
 def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | None:
-    """Return pressure, area and separation of asperities; None without."""
+    """Return pressure, area, spots and separation of asperities; None without.
+
+    Parameters
+    ----------
+    level : Level
+        Finest level with its separations up to date.
+    scaled : ScaledProblem
+        With the law of asperities and the rms height of both surfaces [m].
+    """
     problem, scales, grid = scaled.problem, scaled.scales, level.grid
     if problem.asperities is None:
         return None
@@ -133,7 +157,15 @@ def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | Non
 
 
 def film_contact(level: Level, scaled: ScaledProblem) -> FilmContact | None:
-    """Return the pressure of contact through a boundary film; None without."""
+    """Return the pressure of contact through a boundary film; None without.
+
+    Parameters
+    ----------
+    level : Level
+        Finest level.
+    scaled : ScaledProblem
+        With the Hertz pressure [Pa].
+    """
     if level.equations.contact_film is None:
         return None
     pressure = level.grid.unfold(level.film.asperity * scaled.scales.hertz_pressure)
@@ -141,18 +173,18 @@ def film_contact(level: Level, scaled: ScaledProblem) -> FilmContact | None:
 
 
 def contact_balance(level: Level) -> float:
-    """Return the largest oil made or lost upstream of any section, in film and contact [-].
+    """Return the largest mass-balance error upstream of any section, of film and contact [-].
 
     Relative to the oil that passes through |Y| < 1 at X = 0. Cavities do not count.
     """
     grid, film = level.grid, level.film
     middle, inside = int(np.argmin(np.abs(grid.x))), np.abs(grid.y) < 1.0
     through = float(_line_weights(grid)[inside] @ (film.rho * film.h)[inside, middle])
-    return _largest_made(level) / through
+    return _largest_mass_error(level) / through
 
 
 def asperity_balance(level: Level) -> float:
-    """Return the largest oil made or lost upstream of any section of a film with asperities [-].
+    """Return the largest mass-balance error upstream of any section, with asperities [-].
 
     Relative to the oil that the surfaces bring; what leaves through the side edges counts as
     passed. Cavities do not count unless they conserve oil.
@@ -160,11 +192,11 @@ def asperity_balance(level: Level) -> float:
     if level.stencil.conserves:
         return oil_balance(level)
     entering = _line_weights(level.grid) @ (level.film.rho * level.film.h)[:, 0]
-    return _largest_made(level) / float(entering)
+    return _largest_mass_error(level) / float(entering)
 
 
-def _largest_made(level: Level) -> float:
-    """Return the largest oil made or lost in the film upstream of any section, as rho H [-]."""
+def _largest_mass_error(level: Level) -> float:
+    """Return the largest mass-balance error upstream of any section, as rho H [-]."""
     level.evaluate_residual()
     made = np.cumsum(_line_weights(level.grid) @ level.residual) * level.grid.dx
     return float(np.abs(made).max())
@@ -179,7 +211,15 @@ def _line_weights(grid: Grid) -> Array:
 
 
 def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:
-    """Return where the oil is; None if cavities do not conserve it."""
+    """Return where the oil is; None if cavities do not conserve it.
+
+    Parameters
+    ----------
+    level : Level
+        Finest level with the marks of partly filled nodes.
+    scaled : ScaledProblem
+        With the film scale [m].
+    """
     if not level.stencil.conserves:
         return None
     (held, passed), grid, unit = level.oil_flow(), level.grid, scaled.scales.film_thickness
@@ -203,8 +243,14 @@ def _unfold_line(grid: Grid, values: Array) -> Array:
 def oil_balance(level: Level, *, until: float = np.inf) -> float:
     """Return the largest change of the oil flux between sections across the flow, relative [-].
 
-    The flux through the side edges counts. Of the sections downstream of X = ``until`` only the
-    last one does.
+    The flux through the side edges counts.
+
+    Parameters
+    ----------
+    level : Level
+        Conserving oil in cavities.
+    until : float
+        X up to which all sections count; further downstream only the last one does.
     """
     _, passed = level.oil_flow()
     film, stencil, mirror = level.film, level.stencil, level.grid.mirror

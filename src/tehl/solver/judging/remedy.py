@@ -20,14 +20,14 @@ ERRORS = (0.5, 0.2, 0.05)
 """Relative errors of the film that are tried, coarsest first; the smallest that works is named."""
 THINNING = {"law": "eyring", "stress": "5 MPa"}
 """The shear law of a usual oil."""
-LONGER = 3.0
+TRIAL_TIME_FACTOR = 3.0
 """Time for the trials over that of the failed solve, up to ``numerics.max_time``."""
 LEAST_SECONDS = 1.0
 """Least time for the trials."""
 Solve = Callable[[ContactProblem, Options], Solution]
 Reached = tuple[tuple[int, int], float]
 """Nodes (nx, ny) and relative error of a film that converged."""
-OTHERS = 2
+OTHER_GRIDS = 2
 """Other numbers of nodes that are tried."""
 
 
@@ -48,7 +48,7 @@ def solved_on_other_nodes(
     if failed.status.kind not in ("diverged", "stalled") or not failed.history:
         return None
     nodes = max(planned(ScaledProblem.of(failed.problem), failed.options).shape)
-    for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHERS]:
+    for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHER_GRIDS]:
         left = end - time.perf_counter()
         if left <= 0.0:
             break
@@ -82,7 +82,7 @@ def working_hint(
         The film that converged on the way: nothing worse is named.
     """
     now = time.perf_counter()
-    end = max(min(now + LONGER * failed.cost.wall_seconds, end), now + LEAST_SECONDS)
+    end = max(min(now + TRIAL_TIME_FACTOR * failed.cost.wall_seconds, end), now + LEAST_SECONDS)
     found = None
     least = math.inf if reached is None else reached[1]
     for trials in (_default_domain(failed), _errors(failed, least), _other_physics(failed)):

@@ -33,15 +33,15 @@ from tehl.solver.judging.outputs import asperity_balance, contact_balance, heat_
 CONVERGED = Status(kind="converged")
 TOO_COARSE = ("grid_too_coarse", "film_not_positive")
 """Causes that a finer grid removes."""
-LARGEST_BAR = 0.5
+LARGEST_FILM_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is too coarse."""
-OPEN = 1.0
+UNKNOWN_MINIMUM_ERROR = 1.0
 """Relative error of the minimum between rough surfaces beyond which its value is not known. It is
 one spot beside an asperity: the rest of the film may be accurate, so the result is valid."""
 BELOW_FLOOR = 0.5
 """Least film between rough surfaces over the floor of the conductance: a thinner one flows as if it
 were another film."""
-KNOWN = 0.5
+HINTED_FILM_ERROR = 0.5
 """Relative error of the minimum film at which the hint to a finer grid aims."""
 LARGEST_DOMAIN_ERROR = 0.1
 """Estimated part of the central film beyond which a domain is too small."""
@@ -52,7 +52,7 @@ STARVED = 0.9
 LARGEST_COOLING = 5.0
 """Largest temperature of a film below that of all that enters it and expands adiabatically [K]."""
 LARGEST_MISSING_OIL = 0.05
-"""Largest oil made or lost in the film, over the oil that enters: the film errs about as much."""
+"""Largest mass-balance error of the film, over the oil that enters: the film errs about as much."""
 LARGEST_MISSING_HEAT = 0.3
 """Largest error of the heat balance over the heat that is turned over. In pure rolling, with little
 heat, the backflow in the inlet stores some for many sweeps."""
@@ -61,7 +61,12 @@ heat, the backflow in the inlet stores some for many sweeps."""
 def verdict(run: FilmSolver, *, reached: bool) -> Status:
     """Judge the last state of a run that stayed finite, with its film up to date.
 
-    ``reached`` is whether the cycles met the stopping criterion.
+    Parameters
+    ----------
+    run : FilmSolver
+        With its finest level and error estimates.
+    reached : bool
+        Whether the cycles met the stopping criterion.
     """
     film, errors = run.finest.film, run.errors()
     finite = np.isfinite(film.p).all() and np.isfinite(film.h).all()
@@ -119,7 +124,9 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     if errors is None:
         return CONVERGED
     error = max(errors.discretisation_minimum, errors.discretisation_central)
-    return CONVERGED if error <= LARGEST_BAR else too_coarse(points, run.hierarchy.scaled, error)
+    return (
+        CONVERGED if error <= LARGEST_FILM_BAR else too_coarse(points, run.hierarchy.scaled, error)
+    )
 
 
 def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
@@ -135,16 +142,16 @@ def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     if errors.iteration_minimum >= 1.0:
         return not_reached(run)  # further cycles might make the minimum negative
     error, part = errors.discretisation_minimum, run.minimum_part()
-    if not max(part * error, errors.discretisation_central) <= LARGEST_BAR:
+    if not max(part * error, errors.discretisation_central) <= LARGEST_FILM_BAR:
         largest = max(error, errors.discretisation_central)
         return too_coarse(level.grid.points, run.hierarchy.scaled, largest)
-    return _minimum_open(level, error) if error > OPEN else CONVERGED
+    return _minimum_open(level, error) if error > UNKNOWN_MINIMUM_ERROR else CONVERGED
 
 
 def _minimum_open(level: Level, error: float) -> Status:
     """Return ``converged`` with a warning: the relative ``error`` of the minimum exceeds one."""
     smallest, x, y = thinnest(level)
-    factor = 2 ** math.ceil(0.5 * math.log2(error / KNOWN))  # of second order
+    factor = 2 ** math.ceil(0.5 * math.log2(error / HINTED_FILM_ERROR))  # of second order
     nodes = factor * (max(level.grid.points) - 1) + 1
     return Status(
         kind="converged",
@@ -154,7 +161,8 @@ def _minimum_open(level: Level, error: float) -> Status:
             f"most about H = {(1.0 + error) * smallest:.2g}, but its value is not known."
         ),
         hint=Hint(
-            f"at second order this would reduce the error of the minimum to {100 * KNOWN:.0f} %.",
+            f"at second order this would reduce the error of the minimum to "
+            f"{100 * HINTED_FILM_ERROR:.0f} %.",
             {"numerics.points": nodes},
         ),
     )
@@ -164,6 +172,13 @@ def is_film(level: Level, errors: ErrorEstimate | None) -> bool:
     """Whether the film between rough surfaces is positive, between the nodes too.
 
     A film slightly below the floor of the conductance is accepted if the floor is within its error.
+
+    Parameters
+    ----------
+    level : Level
+        Finest level.
+    errors : ErrorEstimate or None
+        Its relative error of the minimum widens the acceptance, None does not.
     """
     smallest, bar = float(level.film.h.min()), 0.0
     if errors is not None:
@@ -176,7 +191,7 @@ def is_film(level: Level, errors: ErrorEstimate | None) -> bool:
 def _no_film_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     """Return asperity contact, or a grid too coarse if the error leaves doubt."""
     (nx, ny), floor = run.finest.grid.points, run.finest.equations.floor
-    if errors is not None and errors.discretisation_minimum > OPEN:
+    if errors is not None and errors.discretisation_minimum > UNKNOWN_MINIMUM_ERROR:
         status = too_coarse((nx, ny), run.hierarchy.scaled, errors.discretisation_minimum)
         return replace(status, message=f"{status.message} {no_film(run.finest)}.")
     thin = int(np.count_nonzero(run.finest.film.h <= floor))
@@ -201,7 +216,15 @@ def no_film(level: Level) -> str:
 
 
 def touching(run: FilmSolver, part: float) -> Status:
-    """Return the status of a film that is not positive with only ``part`` of the heights."""
+    """Return the status of a film that is positive only with lower heights.
+
+    Parameters
+    ----------
+    run : FilmSolver
+        Stopped while heights were raised.
+    part : float
+        Part of the heights that the film shown has, 0 to 1.
+    """
     status = _no_film_status(run, run.errors())
     message = f"{status.message} The film shown has {100 * part:.0f} % of the heights."
     return replace(status, message=message)
@@ -294,7 +317,7 @@ def _oil_status(run: FilmSolver) -> Status:
     return _failed(
         "oil_not_balanced",
         f"The oil of the film does not balance on {level.grid.nx} x {level.grid.ny} nodes: "
-        f"{percentage(missing)} of what enters is made or lost on the way.",
+        f"the mass-balance error is {percentage(missing)} of the inflow.",
         grid_hint(level.grid.points, run.hierarchy.scaled),
     )
 

@@ -28,25 +28,26 @@ from tehl.solver.physics.boundary_system import (
     flux_difference,
 )
 
-SUFFICIENT, SHORTEST = 0.05, 0.12
+SUFFICIENT_DECREASE, SHORTEST_CONTACT_STEP = 0.05, 0.12
 """Least relative decrease of the residual for the whole step, and shortest part of a step, which is
 taken in any case: sets of nodes that change raise the residual for some steps."""
 MEMORY = 5
 """Steps of which the largest residual must decrease."""
-CLOSE, TIGHTLY, LARGEST_CLOSING = 1e-7, 1e-4, 1e-4
+BALANCED_RESIDUAL, BALANCED_OVER_TOLERANCE, LARGEST_CLOSING = 1e-7, 1e-4, 1e-4
 """Residual below which the oil is balanced; the same over the tolerance of a tight solve, as the
 pressure, and with it the load, moves by a thousand residuals; and its largest change by that."""
-NEAR = 1e-2
-"""Residual below which the orders of the fluxes are chosen after `FREE` more steps. From then on
-they are lowered only: else they may change with the contact, and the contact with them."""
-FREE = 2
-ACCURACY = 0.002
+NEAR_RESIDUAL = 1e-2
+"""Residual below which the orders of the fluxes are chosen after `STEPS_WITH_FREE_ORDERS` more
+steps. From then on they are lowered only: else they may change with the contact, and the contact
+with them."""
+STEPS_WITH_FREE_ORDERS = 2
+CONTACT_LINEAR_RESIDUAL = 0.002
 """Relative residual of the linear equations. Those that are solved to 0.03 take a third more steps,
 as the nodes that touch follow the error."""
-MOST_STEPS, QUICK, SLUGGISH, FAILED = 14, 6, 10, 0.35
+MOST_CONTACT_STEPS, QUICK_STEPS, SLOW_CONTACT_STEPS, FAILED_INCREMENT_FACTOR = 14, 6, 10, 0.35
 """Most steps per increment of the heights, steps up to which the next one is larger and beyond
 which it is smaller, and the factor on one that failed."""
-FIRST_PART, LEAST_PART, RAISED = 0.5, 0.01, 1e-4
+FIRST_HEIGHT_INCREMENT, LEAST_HEIGHT_INCREMENT, RAISED_RESIDUAL = 0.5, 0.01, 1e-4
 """First and smallest increment of the heights, and residual at which the next one follows."""
 
 
@@ -69,14 +70,14 @@ class TouchingNewton(TouchingOperators):
     def __init__(self, level: Level, coarse: Grid, *, order: int = 2, closing: float = 0.0) -> None:
         super().__init__(level, coarse)
         self.past: list[float] = []
-        self.free_steps = FREE
+        self.free_steps = STEPS_WITH_FREE_ORDERS
         self.closing = closing
         self.is_balanced = False  # solved: a further step would only perturb the balance
         self.set_order(order)
 
     def set_order(self, order: int) -> None:
         """Set the largest order of the fluxes; their orders are chosen again."""
-        self.order, self.free_steps, self.past = order, FREE, []
+        self.order, self.free_steps, self.past = order, STEPS_WITH_FREE_ORDERS, []
         choose_orders(self.level, order)
         self.refresh()
 
@@ -100,7 +101,7 @@ class TouchingNewton(TouchingOperators):
         system = TouchingSystem(self)
         try:
             with one_thread():
-                change = system.solve(ACCURACY)
+                change = system.solve(CONTACT_LINEAR_RESIDUAL)
         except (RuntimeError, ValueError) as error:  # singular or not finite
             raise DivergedError from error
         part = self._search(system, change)
@@ -130,10 +131,10 @@ class TouchingNewton(TouchingOperators):
             level.set_state(*system.stepped(before, change, part, self.past[-1]))
             level.update()
             found = self.residual()
-            if found < (1.0 - SUFFICIENT * part) * largest or part < SHORTEST:
+            if found < (1.0 - SUFFICIENT_DECREASE * part) * largest or part < SHORTEST_CONTACT_STEP:
                 break
             part *= 0.5
-        if found < NEAR and part == 1.0:
+        if found < NEAR_RESIDUAL and part == 1.0:
             self.free_steps -= 1
         return part
 
@@ -177,7 +178,15 @@ def close_balance(level: Level) -> bool:
 
 
 def choose_orders(level: Level, order: int = 2) -> None:
-    """Set the orders of the fluxes: 1 where surfaces touch and beside, else ``order``."""
+    """Set the orders of the fluxes: 1 where surfaces touch and beside.
+
+    Parameters
+    ----------
+    level : Level
+        Its marks of second order are overwritten.
+    order : int
+        Order elsewhere, 1 or 2.
+    """
     second = level.film.second
     if order == 1 or level.stencil.w2 == 0.0:
         second[:] = 0
@@ -200,17 +209,29 @@ def with_neighbours(marked: BoolArray) -> BoolArray:
 
 
 def raise_heights(level: Level, newton: TouchingNewton, iterate: Callable[[], float]) -> None:
-    """Raise the heights of ``level`` from the smooth film, by increments solved by ``iterate``.
+    """Raise the heights from the smooth film, increment by increment.
 
     Fluxes are of first order until all heights are there. Each increment starts from the solution
     of the last one: to extrapolate both would mix the nodes that touch.
 
-    Raises DivergedError when the smallest increment does not converge.
+    Parameters
+    ----------
+    level : Level
+        Starts without heights.
+    newton : TouchingNewton
+        Of this level.
+    iterate : callable
+        Takes one Newton step and returns the residual.
+
+    Raises
+    ------
+    DivergedError
+        When the smallest increment does not converge.
     """
     order = newton.order
     newton.set_order(1)
     _solve_increment(newton, iterate)
-    part, size, known = 0.0, FIRST_PART, level.state()
+    part, size, known = 0.0, FIRST_HEIGHT_INCREMENT, level.state()
     while part < 1.0:
         wanted = min(part + size, 1.0)
         level.apply_heights(wanted)
@@ -218,22 +239,22 @@ def raise_heights(level: Level, newton: TouchingNewton, iterate: Callable[[], fl
         steps = _solve_increment(newton, iterate)
         if steps is None:
             level.set_state(*known)
-            size *= FAILED
+            size *= FAILED_INCREMENT_FACTOR
         else:
             known, part = level.state(), wanted
-            size *= 1.6 if steps <= QUICK else 0.8 if steps > SLUGGISH else 1.0
-        if size < LEAST_PART:
+            size *= 1.6 if steps <= QUICK_STEPS else 0.8 if steps > SLOW_CONTACT_STEPS else 1.0
+        if size < LEAST_HEIGHT_INCREMENT:
             raise DivergedError
     newton.set_order(order)
 
 
 def _solve_increment(newton: TouchingNewton, iterate: Callable[[], float]) -> int | None:
-    """Iterate until the residual is `RAISED`; return the number of steps, None on failure."""
-    for number in range(1, MOST_STEPS + 1):
+    """Iterate until the residual is `RAISED_RESIDUAL`; return the steps, None on failure."""
+    for number in range(1, MOST_CONTACT_STEPS + 1):
         try:
             iterate()
         except ArithmeticError:
             return None
-        if newton.residual() < RAISED:
+        if newton.residual() < RAISED_RESIDUAL:
             return number
     return None

@@ -27,7 +27,7 @@ from tehl.operators.jacobian import Neighbours, jacobian, neighbour, rows
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import ROUNDS, VECTORS, Newton
 
-LARGEST_STEPS, FAR = (5.0, 1.0), 0.1
+LARGEST_STEPS, FAR_RESIDUAL = (5.0, 1.0), 0.1
 """Largest change of the pressure of oil per step, in Hertz pressures, and residual above which the
 second one holds. Near the solution that would leave the load out of balance."""
 OPENING = 0.1
@@ -150,19 +150,28 @@ class TouchingSystem:
     def stepped(
         self, before: tuple[Array, float, Array], change: Array, part: float, residual: float
     ) -> tuple[Array, float, Array]:
-        """Return oil pressure, rigid approach and contact pressure after ``part`` of a change.
-
-        ``residual`` is that before it: far from the solution the oil changes by less.
+        """Return oil pressure, rigid approach and contact pressure after part of a change.
 
         Where surfaces touch the sum of both pressures follows the change and the oil pressure has
         its part of it: one that falls does so by its density, whose slope at high pressure would
         take it far below the solution.
+
+        Parameters
+        ----------
+        before : (Array, float, Array)
+            Oil pressure (ny, nx), rigid approach and contact pressure (ny, nx), in Hertz scales.
+        change : Array
+            Solution of the linear system.
+        part : float
+            Step length, 0 to 1.
+        residual : float
+            Before the change: far from the solution the oil changes by less.
         """
         (oil, approach, contact), shape = before, self.shape
         u = (np.where(self.free, change[: self.size], 0.0) + self.known_oil).reshape(shape)
         v = np.where(self.touching, change[self.size : -1], u.ravel() - contact.ravel())
         v, touching = v.reshape(shape), self.touching.reshape(shape)
-        most = LARGEST_STEPS[int(residual > FAR)]
+        most = LARGEST_STEPS[int(residual > FAR_RESIDUAL)]
         step = part * np.clip(u, -most, most)
         total = np.maximum(oil + contact + part * np.clip(v, -LARGEST_PRESS, LARGEST_PRESS), 0.0)
         inside = np.where(u < 0.0, self._by_density(oil, part * u, step), oil + step)
@@ -268,6 +277,13 @@ def beside(matrix: csr_matrix, nx: int) -> csc_matrix:
     """Return the entries of a matrix between nodes of a line, and of the next ones, as float32.
 
     The few others save no iterations, and double the cost of a factorisation.
+
+    Parameters
+    ----------
+    matrix : csr_matrix
+        Over all nodes, row by row.
+    nx : int
+        Nodes per line.
     """
     entries = matrix.tocoo()
     near = np.abs(entries.row // nx - entries.col // nx) <= 1

@@ -21,9 +21,9 @@ from tehl.result.solution import ConvergenceError, Cost, Hint, Solution, Status
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import TOO_COARSE, try_strategies
 
-LONGEST = 1.0
+FULL_GAP_INLET_DISTANCE = 1.0
 """Inlet distance where the gap is full at the inlet edge [m]."""
-RESOLVED = 0.25
+RESOLVED_INLET_DISTANCE = 0.25
 """Inlet distance over the mesh width below which the film decays more slowly than by the law of
 side flow; a steel ball on glass is within 6 % of it there (docs/validation.md)."""
 MOST_REFINEMENTS = 2
@@ -178,13 +178,13 @@ def _after(
 def _inlet_distance(result: Solution, row: int) -> float:
     """Return the distance of the meniscus to the Hertz contact on a line [m]."""
     distance = (-meniscus(result)[row] - 1.0) * result.scales.half_width_x
-    return float(np.nan_to_num(distance, nan=LONGEST))
+    return float(np.nan_to_num(distance, nan=FULL_GAP_INLET_DISTANCE))
 
 
 def _judged(result: Solution, history: PassHistory) -> Status:
     """Return the status of the last pass, with a warning if the side flow is not resolved."""
     mesh = float(result.x[1] - result.x[0])
-    near = np.nonzero(history.inlet_distance < RESOLVED * mesh)[0]
+    near = np.nonzero(history.inlet_distance < RESOLVED_INLET_DISTANCE * mesh)[0]
     if not near.size:
         return result.status
     return Status(
@@ -192,8 +192,9 @@ def _judged(result: Solution, history: PassHistory) -> Status:
         cause="side_flow_not_resolved",
         message=(
             f"From pass {near[0] + 1} on the meniscus is nearer to the Hertz contact than "
-            f"{1e6 * RESOLVED * mesh:.2g} um, a quarter of a mesh width: the rim, where oil is "
-            "thin enough to flow aside, is not resolved, and the film decays too slowly."
+            f"{1e6 * RESOLVED_INLET_DISTANCE * mesh:.2g} um, a quarter of a mesh width: the "
+            "rim, where oil is thin enough to flow aside, is not resolved, and the film decays too "
+            "slowly."
         ),
         hint=Hint("for films as thin as this tehl layer has the law of side flow."),
     )

@@ -20,18 +20,18 @@ from tehl.solver.cycle.level import Level
 
 COUPLED_FROM = 64
 """Intervals of the coarsest grid that is heated; coarser ones keep the inlet temperature."""
-RESOLVED = 5.0
+RESOLVED_FILM_OVER_FLOOR = 5.0
 """Least film on a heated coarser grid, over the floor of the conductance."""
 FIRST_SWEEPS = 10
 """Energy sweeps on the first heated grid before its first cycle."""
 MOST_SWEEPS, LARGE_CHANGE = 4, 5.0
 """Most energy sweeps after a cycle, and change of temperature [K] after which another follows."""
-SMALL_CHANGE, SMALL_RISE_CHANGE = 0.05, 0.0015
+SMALL_KELVIN_CHANGE, SMALL_RISE_CHANGE = 0.05, 0.0015
 """Largest change of temperature in a sweep, and change of the largest rise since the last sweep,
 both over that rise, below which the sweep of the next cycle is skipped."""
 LEAST_SWEEPS = 2
 """Sweeps on a grid before one may be skipped."""
-FIRST_STEPS, STEPS = 40, 3
+FIRST_STRESS_STEPS, STRESS_STEPS = 40, 3
 """Newton steps for the shear stress in the first sweeps and later."""
 RAMP = 24
 """Sweeps over which the sliding speed is raised from zero in `Strategy.slide_in_steps`."""
@@ -39,7 +39,7 @@ UNFINISHED = 100.0
 """Change of temperature [K] reported for a sweep below the full sliding speed."""
 CARRIED = ("temperature", "tau_x", "tau_y")
 """Fields of the film that a sweep starts from."""
-LARGEST_STEP = 0.5
+LARGEST_LOG_STEP = 0.5
 """Largest change of the logarithms of mobility and density per sweep. On a steep front the gradient
 of a pressure not yet converged may increase the mobility by orders of magnitude."""
 FIRST_CHANGE = 8.0
@@ -100,7 +100,7 @@ class Coupling:
             return False
         fine, coarser = levels[-1], self.state
         large = min(fine.grid.nx, fine.grid.ny) > COUPLED_FROM
-        resolved = float(fine.film.h.min()) > RESOLVED * fine.equations.floor
+        resolved = float(fine.film.h.min()) > RESOLVED_FILM_OVER_FLOOR * fine.equations.floor
         if not (finest or coarser is not None or (large and resolved)):
             return False
         self.skip = False
@@ -120,7 +120,7 @@ class Coupling:
             return True
         # the first heated grid starts from the inlet temperature everywhere
         for _ in range(FIRST_SWEEPS):
-            if self._sweep(state, levels, FIRST_STEPS) < FIRST_CHANGE or self.damping < 1.0:
+            if self._sweep(state, levels, FIRST_STRESS_STEPS) < FIRST_CHANGE or self.damping < 1.0:
                 break
         return True
 
@@ -141,13 +141,13 @@ class Coupling:
             self.skip = False
             return self.change, self.rise
         for _ in range(MOST_SWEEPS):
-            self.change = self._sweep(self.state, levels, STEPS)
+            self.change = self._sweep(self.state, levels, STRESS_STEPS)
             if self.change < LARGE_CHANGE or self.sweeps_left or self.damping < 1.0:
                 break
         before, self.rise = self.rise, self._deviation()
         steady = abs(self.rise - before) < SMALL_RISE_CHANGE * abs(self.rise)
         may_skip = self.state.sweeps >= LEAST_SWEEPS and not self.thorough and self.damping == 1.0
-        self.skip = may_skip and steady and self.change < SMALL_CHANGE * abs(self.rise)
+        self.skip = may_skip and steady and self.change < SMALL_KELVIN_CHANGE * abs(self.rise)
         return self.change, self.rise
 
     def _deviation(self) -> float:
@@ -183,7 +183,15 @@ class Coupling:
         return known | (state.transient.pack() if state.transient is not None else {})
 
     def unpack(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
-        """Restore the state that `pack` returned."""
+        """Restore the state that `pack` returned.
+
+        Parameters
+        ----------
+        levels : sequence of Level
+            The coarsest first; their factors are restored too.
+        fields : dict
+            Arrays by name; an empty one leaves the state as it is.
+        """
         if self.state is None or not fields:
             return
         for name in CARRIED:
@@ -196,7 +204,15 @@ class Coupling:
         self.factors = levels[-1].factors
 
     def begin_transient(self, levels: Sequence[Level], time_step: float) -> None:
-        """Make the energy equation transient, in steps of ``time_step`` [a_x / u_m]."""
+        """Make the energy equation transient.
+
+        Parameters
+        ----------
+        levels : sequence of Level
+            The coarsest first, with the factors of the steady film.
+        time_step : float
+            Step [a_x / u_m].
+        """
         self.factors = levels[-1].factors
         if self.state is not None and self.state.model.terms.heat:
             self.state.begin_transient(time_step)
@@ -269,7 +285,7 @@ class Coupling:
 def damped(
     old: properties.Factors, new: properties.Factors, isothermal: Array, damping: float
 ) -> properties.Factors:
-    """Return factors between old and new ones, in logarithms, at most `LARGEST_STEP` away.
+    """Return factors between old and new ones, in logarithms, at most `LARGEST_LOG_STEP` away.
 
     Parameters
     ----------
@@ -283,7 +299,7 @@ def damped(
 
     def step(before: Array, after: Array) -> Array:
         change = damping * np.log(after / before)
-        return before * np.exp(np.clip(change, -LARGEST_STEP, LARGEST_STEP))
+        return before * np.exp(np.clip(change, -LARGEST_LOG_STEP, LARGEST_LOG_STEP))
 
     before, after = (one.rest + one.mobility * isothermal for one in (old, new))
     part = step(before, after) / after

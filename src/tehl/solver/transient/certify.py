@@ -34,7 +34,7 @@ from tehl.solver.judging.richardson import (
     order_of_history,
     with_growing_spike,
 )
-from tehl.solver.judging.verdict import LARGEST_BAR
+from tehl.solver.judging.verdict import LARGEST_FILM_BAR
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.transient.run import solve_transient
 
@@ -110,7 +110,7 @@ def certify_transient(
         bars=history_bars(runs, wide.result),
     )
     worst = widest(result.uncertainty, JUDGED)
-    if worst > LARGEST_BAR:
+    if worst > LARGEST_FILM_BAR:
         return replace(result, status=too_coarse_to_certify(result.start, worst))
     return result
 
@@ -151,7 +151,15 @@ def _not_certified(finest: TransientSolution, what: str, failed: Other) -> Trans
 
 
 def estimates(runs: Runs, wide: TransientSolution) -> dict[str, Estimate]:
-    """Return extremes over time with their error bars, in SI."""
+    """Return extremes over time with their error bars, in SI.
+
+    Parameters
+    ----------
+    runs : tuple of TransientSolution
+        On grids and time steps halved each time, the finest last.
+    wide : TransientSolution
+        On the larger domain, with the mesh width of the second finest run.
+    """
     end = float(runs[-1].history.time[-1])
     found, wider = [_extremes(run, end) for run in runs], _extremes(wide, end)
     bars = {
@@ -190,7 +198,15 @@ def _extremes(run: TransientSolution, end: float) -> dict[str, float]:
 
 
 def history_bars(runs: Runs, wide: TransientSolution) -> HistoryBars:
-    """Return error bars along the history, at the times that all runs share."""
+    """Return error bars along the history, at the times that all runs share.
+
+    Parameters
+    ----------
+    runs : tuple of TransientSolution
+        On grids and time steps halved each time, the finest last.
+    wide : TransientSolution
+        On the larger domain, with the mesh width of the second finest run.
+    """
     growth = _growth(runs)[:: 2 ** (len(runs) - 2)]
     return HistoryBars(
         time=_shared(runs, "time")[-1],

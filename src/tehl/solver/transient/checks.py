@@ -13,13 +13,26 @@ from tehl.operators.heights import MovingHeights, check_nodes, rounded_up
 
 LEAST_STEPS = 4.0
 """Time steps per passing wave below which the wave is aliased."""
-ROUNDING = 1e-9
-MISSED = 0.25
+TIME_ROUNDING = 1e-9
+LARGEST_PEAK_ERROR = 0.25
 """Largest error of a peak load at the nearest step, over the whole change of the load."""
 
 
 def check_stride(transient: Transient, grid: Grid) -> None:
-    """Check that two time steps pass at most an eighth of the domain."""
+    """Check that two time steps pass at most an eighth of the domain.
+
+    Parameters
+    ----------
+    transient : Transient
+        Its ``stride`` is the time step in mesh widths over u_m.
+    grid : Grid
+        With the number of nodes along x.
+
+    Raises
+    ------
+    InputError
+        If the stride is too long; the message has the longest one.
+    """
     longest = max((grid.nx - 1) // 16, 1)
     if transient.stride > longest:
         raise InputError(
@@ -42,7 +55,7 @@ def check_waves(heights: MovingHeights, grid: Grid, stride: int) -> None:
     check_nodes(min(along / grid.dx, across / grid.dy))
     for name, waves in zip(("surface_1", "surface_2"), heights.waves_per_step, strict=True):
         part = waves * stride * grid.dx
-        if part * LEAST_STEPS > 1.0 + ROUNDING:
+        if part * LEAST_STEPS > 1.0 + TIME_ROUNDING:
             smaller = f", or reduce transient.stride (now {stride})" if stride > 1 else ""
             raise InputError(
                 f"{name}.roughness: moves by {part:.3g} of its shortest wave per time step and "
@@ -52,7 +65,20 @@ def check_waves(heights: MovingHeights, grid: Grid, stride: int) -> None:
 
 
 def check_load(transient: Transient, seconds: float) -> None:
-    """Check that time steps of ``seconds`` resolve the peaks of the load."""
+    """Check that time steps resolve the peaks of the load.
+
+    Parameters
+    ----------
+    transient : Transient
+        Its ``load`` is over that of the contact, piecewise linear in time [s].
+    seconds : float
+        Time step [s].
+
+    Raises
+    ------
+    InputError
+        If a peak lies between two steps.
+    """
     levels = plateaus(transient.load)
     if not levels:
         return
@@ -63,7 +89,7 @@ def check_load(transient: Transient, seconds: float) -> None:
         steps = [round(time / seconds) * seconds for time in (first, last)]
         seen = math.ceil(first / seconds) * seconds <= last
         missed = min(abs(load - transient.load_at(time)) for time in steps)
-        if turns and not seen and missed > MISSED * change:
+        if turns and not seen and missed > LARGEST_PEAK_ERROR * change:
             raise InputError(
                 f"transient.load = {load:g} at {first:g} s: a peak between two time steps of "
                 f"{seconds:.3g} s, which do not resolve it; take more numerics.points, or a longer "

@@ -9,7 +9,7 @@ TERMS = ((0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1), (1, 2), (2, 2), (2, 3))
 still and of what moves with the entrainment speed, and what lies between and beyond."""
 STRAIGHT = np.array([{(0, 0): 2.0, (1, 0): -1.0}.get(term, 0.0) for term in TERMS])
 """Coefficients of linear extrapolation in time."""
-FARTHEST = 3.0
+LARGEST_PREDICTION_RATIO = 3.0
 """Predicted change over that of the last step, beyond which linear extrapolation is taken: the fit
 does not contain sudden changes."""
 REACH = 1 + max(back for back, _ in TERMS)
@@ -47,7 +47,7 @@ class Predictor:
         if self.past[REACH - 1].any():  # enough steps to fit the last one
             terms = self._terms(self.past[:-1])
             predicted = self.steady + np.einsum("k,kji->ji", self._coefficients(), terms)
-            if np.abs(predicted - now).max() <= FARTHEST * np.abs(change).max():
+            if np.abs(predicted - now).max() <= LARGEST_PREDICTION_RATIO * np.abs(change).max():
                 onward = predicted
         return np.where(now > 0.0, np.maximum(onward, 0.0), 0.0)
 

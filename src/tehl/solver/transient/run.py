@@ -1,4 +1,4 @@
-"""Transient runs: the steady film at time zero, then step by step to the end."""
+"""Transient runs: the steady film at time zero, then the time steps to the end."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
@@ -132,7 +132,15 @@ class Run:
     def advance(
         self, monitor: StepMonitor, keep: Callable[[Snapshot], None] | None = None
     ) -> Status:
-        """Advance to the end, or until a step fails; return the status."""
+        """Advance to the end, or until a step fails; return the status.
+
+        Parameters
+        ----------
+        monitor : StepMonitor
+            Receives each step.
+        keep : callable or None
+            Receives a snapshot after each step, for a checkpoint.
+        """
         for step in range(len(self.record.rows), self.steps + 1):
             time_now = step * self.seconds
             heights = self.heights.at(time_now)
@@ -230,7 +238,15 @@ class Run:
             raise InputError(f"the checkpoint has other steps than the case, or is damaged{ANEW}")
 
     def step_not_settled(self, error: StepError, seconds: float) -> Status:
-        """Return ``step_not_settled``: the time step to ``seconds`` did not converge."""
+        """Return ``step_not_settled`` of a time step that did not converge.
+
+        Parameters
+        ----------
+        error : StepError
+            With its cause and the last change of the pressure.
+        seconds : float
+            End of the step [s].
+        """
         (nx, ny), tolerance = self.level.grid.points, self.transient.tolerance
         hint = Hint(
             "Take lower or longer asperities, more nodes (numerics.points), or more cycles per "

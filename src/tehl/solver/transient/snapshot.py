@@ -122,7 +122,15 @@ class Record:
         )
 
     def fields(self, scales: Scales, shape: tuple[int, int]) -> Frames:
-        """Return the stored fields, in SI; ``shape`` is that of the full domain."""
+        """Return the stored fields, in SI.
+
+        Parameters
+        ----------
+        scales : Scales
+            Units of pressure and film.
+        shape : (int, int)
+            Nodes (ny, nx) of the full domain.
+        """
         stack = np.stack(self.frames) if self.frames else np.zeros((0, 3, *shape), np.float32)
         units = (scales.hertz_pressure, scales.film_thickness, scales.film_thickness)
         pressure, film, height = (

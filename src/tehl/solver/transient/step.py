@@ -28,11 +28,11 @@ from tehl.solver.judging.convergence import LEAST_KELVIN, RUNAWAY
 from tehl.solver.physics.boundary_contact import TouchingNewton
 from tehl.solver.transient.predictor import Predictor
 
-LARGEST_LOAD_ERROR = 1e-4
+LARGEST_STEP_LOAD_ERROR = 1e-4
 """Load error accepted in a step."""
 LARGEST_REST = 0.01
 """Residual of Newton's method accepted in a step, over the tolerance."""
-LARGEST_KELVIN_CHANGE = 0.01
+LARGEST_STEP_KELVIN_CHANGE = 0.01
 """Change of temperature in the last cycle of a step, over the largest rise."""
 LEAST_CYCLES, MORE_STEPS = 2, 2
 """Least cycles of a step; and most Newton steps over the most cycles."""
@@ -94,10 +94,19 @@ class Stepper:
         self.choose(0)
 
     def step(self, heights: Array, load: float) -> StepEnd:
-        """Advance by one step to the heights of both surfaces, (ny, nx), and the load [-].
+        """Advance by one step.
 
-        Raises StepError when no relaxation converges; pressure and film are those of the last
-        attempt.
+        Parameters
+        ----------
+        heights : Array
+            Of both surfaces together [-], (ny, nx).
+        load : float
+            Over that of the contact [-].
+
+        Raises
+        ------
+        StepError
+            When no relaxation converges; pressure and film are those of the last attempt.
         """
         level, history = self.solver.finest, self._history()
         start = level.state()
@@ -111,7 +120,7 @@ class Stepper:
             elif self.newton is None:
                 level.set_pressure(self.predictor.onward())
             else:
-                self.newton.refresh()  # as a resumed run, which knows no earlier residuals
+                self.newton.refresh()  # as a resumed run, which has no earlier residuals
             level.pose_step(history + self.squeeze.onward(), heights, load)
             try:
                 end = self._solve(self.settings[number].name)
@@ -179,8 +188,8 @@ class Stepper:
             finite = np.isfinite(change) and np.isfinite(level.film.h).all()
             if not (finite and abs(error) < RUNAWAY):
                 raise StepError("diverged", change)
-            done = change <= self.transient.tolerance and abs(error) <= LARGEST_LOAD_ERROR
-            done = done and warmer <= max(LARGEST_KELVIN_CHANGE * rise, LEAST_KELVIN)
+            done = change <= self.transient.tolerance and abs(error) <= LARGEST_STEP_LOAD_ERROR
+            done = done and warmer <= max(LARGEST_STEP_KELVIN_CHANGE * rise, LEAST_KELVIN)
             if self.newton is not None:  # a step that is cut short changes little
                 done = done and self.newton.residual() <= LARGEST_REST * self.transient.tolerance
                 done = done and self.newton.lost_contact() <= self.transient.tolerance
