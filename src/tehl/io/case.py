@@ -66,20 +66,7 @@ def read_case_and_options(
 def case_from_tables(
     tables: Mapping[str, Any], folder: Path | None = None
 ) -> tuple[ContactProblem, Options]:
-    """Return problem and options of the parsed tables of a case, checked as those of a file.
-
-    Parameters
-    ----------
-    tables : Mapping
-        As of the TOML of a case file; quantities are texts with a unit, or numbers in SI.
-    folder : Path or None
-        Where relative paths of measured surfaces begin; None is the working directory.
-
-    Raises
-    ------
-    InputError
-        If a key or a value is invalid, in one sentence.
-    """
+    """Return problem and options of the tables of a case: see `tehl.api.problem`."""
     physics = {key: value for key, value in tables.items() if key != NUMERICS}
     problem = _validated(ContactProblem, physics, prefix="", folder=folder)
     _check_maps(problem)

@@ -16,9 +16,8 @@ from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import STEADILY, Stencil, flux_weights
 
-NEGLIGIBLE_COARSE_PART = (
-    1e-6  # part of a change of the pressure that asperities take by the film it moves
-)
+# part of a change of the pressure that asperities take by the film it moves
+NEGLIGIBLE_COARSE_PART = 1e-6
 HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)
 
 

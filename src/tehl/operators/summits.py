@@ -23,9 +23,9 @@ from tehl.kernels.summits import AsperityLaws
 TABLE_SEPARATION_STEP = 0.02
 """Difference of the separations at which the laws are tabulated, over sigma."""
 LEAST_OPENING = 0.01
-"""Least slope of the mean gap by the separation. Between planes that cross, below a gap of 0.003
-sigma, it is constant: else the film would not determine the separation, and cycles diverge where a
-coarse grid lets the planes cross far."""
+"""Least slope of the mean gap by the separation. Gaussian planes that cross by more than 2.3 sigma
+have it, where the gap is below 0.004 sigma, and none is left at 2.7 sigma: else the film would not
+determine the separation, and cycles diverge where a coarse grid lets the planes cross far."""
 LEAST_CARRIED = 0.01
 """Least oil that is carried over that of the gap: pools of a rough surface at rest carry none."""
 
@@ -169,9 +169,7 @@ def _opening(gap: Array) -> Array:
 
 def _tabulated(curve: Callable[[Array], Array]) -> Array:
     """Return a curve over the gap and its slope times the step, (n, 2)."""
-    gap, d = (
-        np.arange(LEAST_SEPARATION, LAST_SEPARATION + TABLE_SEPARATION_STEP, TABLE_SEPARATION_STEP),
-        0.1 * TABLE_SEPARATION_STEP,
-    )
+    step = TABLE_SEPARATION_STEP
+    gap, d = np.arange(LEAST_SEPARATION, LAST_SEPARATION + step, step), 0.1 * step
     rise = 8.0 * (curve(gap + d) - curve(gap - d)) - (curve(gap + 2 * d) - curve(gap - 2 * d))
-    return np.stack([curve(gap), rise / (12.0 * d) * TABLE_SEPARATION_STEP], axis=1)
+    return np.stack([curve(gap), rise / (12.0 * d) * step], axis=1)
