@@ -98,10 +98,9 @@ class Outcome:
     uncertain: int
     """Those of them whose minimum film is uncertain, as their rows say."""
     failed: tuple[tuple[Case, Row], ...]
-    """Failed cases, those of before included, in the order of the study; their rows are without
-    summaries."""
+    """Failed cases of this and earlier runs in the order of the study; no row has a summary."""
     retried: tuple[tuple[Case, Row], ...]
-    """Converged cases that took the settings of hints, those of before included."""
+    """Converged cases that took the settings of hints, in this and earlier runs."""
     cpu_seconds: float
     """Of the solves of this run."""
     wall_seconds: float
@@ -144,9 +143,8 @@ def run(  # noqa: PLR0913 (keywords with defaults)
         keeps fields, saves work where neighbours have nearly the same film, and gives the same
         results to the tolerance, no longer to the last digit.
     forked : bool
-        On Linux, fork the processes from one that has loaded the solver, which saves two seconds of
-        a core for each. It is Python's ``forkserver``, which stays until the program ends and
-        serves all of it: for programs that have no other use for it.
+        On Linux, fork the processes from one that has loaded the solver (Python's ``forkserver``,
+        which serves the whole program): it saves two seconds of a core for each.
     engine : Engine or None
         An engine to solve on, which stays open, instead of ``jobs`` or a ``scheduler``.
     make : callable or None
