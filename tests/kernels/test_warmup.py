@@ -81,8 +81,17 @@ class Kernel:
 
 @pytest.mark.parametrize("program", ["", "import sys; sys.exit(1)", "print(input())"])
 def test_this_process_compiles_what_others_leave(monkeypatch, program):
-    """Others that end at once, or after one kernel."""
+    """Others that end at once, or after one kernel; an input would wait."""
+    start = warmup._start
+
+    def start_and_let_end() -> subprocess.Popen:
+        process = start()
+        if "input" not in program:
+            process.wait()
+        return process
+
     monkeypatch.setattr(warmup, "SERVE", program)
+    monkeypatch.setattr(warmup, "_start", start_and_let_end)
     samples, reports = [Kernel(float(k)) for k in range(1, 6)], []
     compilation = warmup.Compilation(samples, reports.append)
     compilation.processes = 3

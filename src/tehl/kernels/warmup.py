@@ -112,8 +112,8 @@ class Compilation:
         with ExitStack() as stack:
             threads = []
             for _ in range(self.processes - 1):
-                process = stack.enter_context(_start())
-                stack.callback(process.kill)
+                process = _start()
+                stack.callback(_end, process)
                 threads.append(Thread(target=self._work, args=(_compiler_in(process),)))
             for thread in threads:
                 thread.start()
@@ -182,6 +182,12 @@ def _start() -> "subprocess.Popen[str]":
         text=True,
         creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
     )
+
+
+def _end(process: "subprocess.Popen[str]") -> None:
+    """Kill ``process``; `communicate` closes also a pipe whose reader has ended before."""
+    process.kill()
+    process.communicate()
 
 
 def _compiler_in(process: "subprocess.Popen[str]") -> Callable[[Sample], bool]:
