@@ -8,8 +8,8 @@ import pytest
 from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.contact.options import Options
+from tehl.contact.shape import Shape
 from tehl.estimate.scaling import groups, scales
-from tehl.post.film import dry_gap, hertz_pressure
 from tehl.result.bars import ErrorEstimate, Estimate
 from tehl.result.fields import Fields, FilmSummary
 from tehl.result.solution import Cost, CycleReport, Hint, Provenance, Status
@@ -30,7 +30,7 @@ def make_result(points: int = 65, *, case: dict = CASE, title: str | None = None
     """Return a converged result that looks like a film; central H is 0.1."""
     problem = ContactProblem.model_validate({**case, "title": title or case["title"]})
     numbers = groups(problem)
-    fields = _fields(points, numbers.ellipticity)
+    fields = _fields(points, numbers.shape)
     node = float(fields.film.min())
     centre = (int(np.argmin(np.abs(fields.y))), int(np.argmin(np.abs(fields.x))))
     return Result(
@@ -59,15 +59,15 @@ def make_result(points: int = 65, *, case: dict = CASE, title: str | None = None
     )
 
 
-def _fields(points: int, ellipticity: float) -> Fields:
+def _fields(points: int, shape: Shape) -> Fields:
     x, y = np.linspace(-4.5, 1.5, points), np.linspace(-3.0, 3.0, points)
     xx, yy = x[None, :], y[:, None]
     radius = np.hypot(xx, yy)
     rim = np.exp(-(((radius - 0.92) / 0.1) ** 2))
     towards = np.clip(0.5 + 0.5 * xx / np.maximum(radius, 1e-9), 0, 1) ** 0.5
     side = np.exp(-(((np.abs(yy) - 0.88) / 0.3) ** 2) - ((xx - 0.1) / 0.5) ** 2)
-    film = 0.1 * (1 - rim * np.maximum(0.28 * towards, 0.5 * side)) + dry_gap(xx, yy, ellipticity)
-    pressure = hertz_pressure(xx, yy)
+    film = 0.1 * (1 - rim * np.maximum(0.28 * towards, 0.5 * side)) + shape.dry_gap(xx, yy)
+    pressure = shape.dry_pressure(xx, yy)
     pressure = pressure + 0.2 * np.exp(-(((xx - 0.88) / 0.03) ** 2) - (yy / 0.4) ** 2) * (
         radius < 1
     )

@@ -1,49 +1,73 @@
-"""Reduced radii, speeds of the surfaces, and the height of a smooth one."""
+"""Shapes of contacts against closed forms: dry gap, dry pressure, load."""
 
 import math
 
 import numpy as np
 import pytest
 
-from tehl.contact.shape import Motion, Radii, reduced_radii, reduced_radius
-from tehl.roughness import Smooth
+from tehl.contact.bodies import Radii
+from tehl.contact.hertz import elliptic_b_d
+from tehl.contact.shape import LINE, Ellipse
+
+CIRCLE = Ellipse(ellipticity=1.0, radius_ratio=1.0)
 
 
-def test_curvatures_add():
-    assert reduced_radius(0.02, 0.03) == pytest.approx(0.012)
-    assert reduced_radius(0.02, math.inf) == pytest.approx(0.02)
+def gap_of_circle(r: np.ndarray) -> np.ndarray:
+    """Johnson (1985), section 3.4: gap outside the contact of a sphere, in a^2/R."""
+    rise = (2 - r**2) * np.arcsin(1 / r) + np.sqrt(r**2 - 1)
+    return -1 + r**2 / 2 + rise / np.pi
 
 
-def test_a_ball_in_a_groove_is_a_contact():
-    assert reduced_radius(0.01, -0.02) == pytest.approx(0.02)
+def test_the_dry_gap_of_a_circle_is_that_of_hertz():
+    r = np.linspace(1.001, 5, 40)
+    assert CIRCLE.dry_gap(0.6 * r, 0.8 * r) == pytest.approx(gap_of_circle(r), abs=1e-12)
 
 
-def test_flat_on_flat_is_rejected():
-    with pytest.raises(ValueError, match="flat on flat"):
-        reduced_radius(math.inf, math.inf)
+@pytest.mark.parametrize("ellipticity", [0.3, 1.0, 2.5])
+def test_the_dry_gap_closes_in_the_contact(ellipticity):
+    angle = np.linspace(0, 7, 30)
+    radius = np.linspace(0, 1, 30)
+    shape = Ellipse(ellipticity=ellipticity, radius_ratio=1.0)
+    gap = shape.dry_gap(radius * np.cos(angle), radius * np.sin(angle))
+    assert np.abs(gap).max() < 1e-12
 
 
-@pytest.mark.parametrize(("first", "second"), [(0.01, -0.01), (0.02, -0.01), (-0.01, math.inf)])
-def test_surfaces_that_do_not_curve_apart_are_rejected(first: float, second: float):
-    with pytest.raises(ValueError, match="do not curve apart"):
-        reduced_radius(first, second)
+@pytest.mark.parametrize("kappa", [0.5, 1.6, 4.0])
+def test_far_away_the_dry_gap_is_the_undeformed_one(kappa):
+    """H -> X^2/2 + D kappa^2 Y^2/2 - approach + load term; D from the second difference."""
+    k = max(kappa, 1 / kappa)
+    b, d = elliptic_b_d(1 - 1 / k**2)
+    radius_ratio = 1 / (k**2 * b / d) if kappa >= 1 else k**2 * b / d
+    y = np.array([200.0, 201.0, 202.0])
+    shape = Ellipse(ellipticity=kappa, radius_ratio=radius_ratio)
+    curvature = np.diff(shape.dry_gap(np.zeros(3), y), 2)[0]
+    assert curvature == pytest.approx(shape.across, rel=1e-4)
 
 
-def test_both_directions_are_reduced():
-    roller = reduced_radii(Radii(x=0.01, y=0.1), Radii(x=math.inf, y=math.inf))
-    assert (roller.x, roller.y) == (pytest.approx(0.01), pytest.approx(0.1))
+@pytest.mark.parametrize("shape", [CIRCLE, LINE])
+def test_the_dry_pressure_carries_the_load(shape):
+    x = np.linspace(-1, 1, 4001)
+    y = np.zeros(1) if shape is LINE else x[::5]
+    cell = (x[1] - x[0]) * (1.0 if shape is LINE else y[1] - y[0])
+    carried = shape.dry_pressure(x[None, :], y[:, None]).sum() * cell
+    assert carried == pytest.approx(shape.load, rel=1e-4)
 
 
-@pytest.mark.parametrize("slip", [-2.0, -0.25, 0.0, 1.0, 3.0])
-def test_the_speeds_have_the_stated_mean_and_slide_roll_ratio(slip: float):
-    motion = Motion(entrainment_speed=1.5, slide_roll_ratio=slip)
-    assert (motion.speed_1 + motion.speed_2) / 2 == pytest.approx(1.5)
-    assert (motion.speed_1 - motion.speed_2) / 1.5 == pytest.approx(slip)
-    assert motion.sliding_speed == pytest.approx(motion.speed_1 - motion.speed_2)
+def test_the_dry_gap_of_a_line_opens_as_the_surfaces_curve_less_what_they_bend():
+    # the slope of the deflection of sqrt(1 - X^2) outside of it is -(X - sqrt(X^2 - 1))
+    x = np.linspace(-3.0, 3.0, 6001)
+    slope = np.gradient(LINE.dry_gap(x, np.zeros(1)), x)
+    exact = np.sign(x) * np.sqrt(np.maximum(x**2 - 1.0, 0.0))
+    assert np.abs(slope - exact).max() < 0.02  # the slope rises like a root at |X| = 1
+    assert np.abs(slope - exact)[(np.abs(x) > 1.5) & (np.abs(x) < 2.9)].max() < 1e-6
 
 
-def test_a_smooth_surface_has_zero_height_in_the_shape_of_its_points():
-    x, y = np.linspace(-1, 1, 5), np.linspace(-1, 1, 3)[:, None]
-    height = Smooth().height(x, y, 2.0)
-    assert height.shape == (3, 5)
-    assert not height.any()
+def test_a_dry_line_is_that_of_hertz():
+    """Johnson (1985), eqs 4.43 and 4.45, with E' = 2 E*."""
+    load, radius, modulus = 2e5, 0.02, 2.26e11
+    contact = LINE.hertz(load, Radii(x=radius, y=math.inf), modulus)
+    assert contact.half_width_x == pytest.approx(math.sqrt(8 * load * radius / math.pi / modulus))
+    assert contact.pressure == pytest.approx(math.sqrt(load * modulus / (2 * math.pi * radius)))
+    assert contact.pressure == pytest.approx(modulus * contact.half_width_x / (4 * radius))
+    again = LINE.load_of_pressure(contact.pressure, Radii(x=radius, y=math.inf), modulus)
+    assert again == pytest.approx(load)

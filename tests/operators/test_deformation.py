@@ -14,7 +14,7 @@ from tehl.operators.deformation import (
     LineDeformation,
     choose,
 )
-from tehl.operators.film import gap, hertz_pressure
+from tehl.operators.film import dry_pressure, gap
 from tehl.operators.influence import influence_of
 from tehl.operators.multilevel import MultilevelDeformation
 from tests.operators.contacts import contact_groups, grid_of
@@ -63,7 +63,7 @@ def test_a_sum_by_transforms_equals_the_direct_sum(nx, ny, mirror, ratio, name):
 @pytest.mark.parametrize(("nx", "ny"), SHAPES)
 def test_the_multilevel_sum_of_the_hertz_pressure_is_close_to_the_direct_sum(nx, ny, mirror, ratio):
     grid = grid_of(nx, ny, mirror=mirror)
-    pressure = hertz_pressure(grid)
+    pressure = dry_pressure(grid, contact_groups())
     exact = deflection("direct", grid, pressure, ratio)
     error = np.abs(deflection("mlmi", grid, pressure, ratio) - exact).max()
     assert error < MULTILEVEL_ERROR * exact.max()
@@ -81,7 +81,7 @@ def test_the_multilevel_sum_of_any_pressure_is_close_to_the_exact_sum(seed, mirr
 
 def test_the_multilevel_sum_is_as_accurate_on_a_fine_grid():
     grid = grid_of(257, 257, mirror=True, domain=DOMAIN)
-    pressure = hertz_pressure(grid)
+    pressure = dry_pressure(grid, contact_groups())
     exact = deflection("fft", grid, pressure)
     error = deflection("mlmi", grid, pressure) - exact
     inside = grid.x[None, :] ** 2 + grid.y[:, None] ** 2 < 1.0
@@ -93,7 +93,7 @@ def test_the_multilevel_sum_is_as_accurate_on_a_fine_grid():
 def test_the_multilevel_sum_has_no_ripple_from_node_to_node():
     # the pressure of a stiff contact would have to balance it
     grid = grid_of(257, 257, mirror=True, domain=DOMAIN)
-    pressure = hertz_pressure(grid)
+    pressure = dry_pressure(grid, contact_groups())
     error = deflection("mlmi", grid, pressure) - deflection("fft", grid, pressure)
     inner = (slice(1, -1), slice(1, -1))
     beside = error[1:-1, 2:] + error[1:-1, :-2] + error[2:, 1:-1] + error[:-2, 1:-1]
@@ -114,7 +114,7 @@ def test_deflection_is_linear(name):
 def hertz_errors(points: int) -> tuple[float, float]:
     """Largest error of the deflection at r = 0, 1.5, 2, 3, 4 against Hertz, and at r = 0 alone."""
     grid = grid_of(points, points, mirror=True, domain=WIDE)
-    row = deflection("fft", grid, hertz_pressure(grid))[0]
+    row = deflection("fft", grid, dry_pressure(grid, contact_groups()))[0]
     cited = read("exact")["circle"]
     places = [0.0, *cited["r"][1:]]
     exact = [1.0, *cited["deflection"][1:]]
@@ -138,7 +138,7 @@ def test_refinement_brings_the_deflection_closer_to_hertz():
 def test_the_dry_gap_vanishes_in_a_contact_of_any_ellipticity(ratio):
     numbers = contact_groups(ratio)
     grid = grid_of(257, 257, mirror=True, domain=Domain(x=(-2.0, 2.0), y=(-2.0, 2.0)))
-    film = gap(grid, numbers) + deflection("fft", grid, hertz_pressure(grid), ratio)
+    film = gap(grid, numbers) + deflection("fft", grid, dry_pressure(grid, numbers), ratio)
     film -= film[0, 128]
     inside = grid.x[None, :] ** 2 + grid.y[:, None] ** 2 < 0.8**2
     # the error of cells at the edge of the pressure, h^(3/2) = 2e-3 for h = 1/64

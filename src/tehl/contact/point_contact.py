@@ -17,11 +17,12 @@ from tehl.base.units import (
     Speed,
     Temperature,
 )
+from tehl.contact.bodies import Motion, Radii, reduced_radii
 from tehl.contact.boundary_contact import ContactFilm
 from tehl.contact.heat import FilmEnergy, Thermal
-from tehl.contact.hertz import HertzContact, hertz_contact, load_of_pressure
+from tehl.contact.hertz import HertzContact, ellipticity
 from tehl.contact.materials import NamedSolid, reduced_modulus
-from tehl.contact.shape import Motion, Radii, reduced_radii
+from tehl.contact.shape import Ellipse, Shape
 from tehl.contact.summits import Asperities
 from tehl.contact.supply import Cavitation, Supply
 from tehl.contact.transient import Transient
@@ -223,6 +224,13 @@ class PointContact(Table):
         return self.radii.y
 
     @property
+    def shape(self) -> Shape:
+        """Return the shape of the contact."""
+        radii = self.radii
+        ratio = ellipticity(radii.x, radii.y)
+        return Ellipse(ellipticity=ratio, radius_ratio=radii.x / radii.y)
+
+    @property
     def reduced_modulus(self) -> float:
         """Return E' with ``2/E' = (1-nu_1^2)/E_1 + (1-nu_2^2)/E_2`` [Pa]."""
         return reduced_modulus(self.surface_1.material, self.surface_2.material)
@@ -305,9 +313,11 @@ class PointContact(Table):
             return self.contact.load
         if self.contact.hertz_pressure is not None:
             pressure = self.contact.hertz_pressure
-            return load_of_pressure(pressure, self.radius_x, self.radius_y, self.reduced_modulus)
-        load_group = (self.contact.moes_load or math.nan) * (2.0 * self.speed_group) ** 0.75
-        return load_group * self.reduced_modulus * self.radius_x**2
+            return self.shape.load_of_pressure(pressure, self.radii, self.reduced_modulus)
+        load_group = (self.contact.moes_load or math.nan) * (
+            2.0 * self.speed_group
+        ) ** self.shape.speed_power
+        return load_group * self.shape.load_unit(self.radius_x, self.reduced_modulus)
 
     @property
     def slide_roll_ratio(self) -> float:
@@ -324,7 +334,7 @@ class PointContact(Table):
     @property
     def hertz(self) -> HertzContact:
         """Return the dry contact under the same load."""
-        return hertz_contact(self.load, self.radius_x, self.radius_y, self.reduced_modulus)
+        return self.shape.hertz(self.load, self.radii, self.reduced_modulus)
 
     @property
     def solid_peclet(self) -> tuple[float | None, float | None]:

@@ -19,9 +19,9 @@ from tehl.base.units import (
     SolidHeatCapacity,
     quantity,
 )
+from tehl.contact.bodies import reduced_radius
 from tehl.contact.boundary_contact import THICKEST_BOUNDARY_FILM, THINNEST_BOUNDARY_FILM
 from tehl.contact.point_contact import Contact, PointContact, Surface
-from tehl.contact.shape import reduced_radius
 from tehl.contact.summits import GreenwoodTripp
 
 __all__ = ["Contact", "ContactProblem", "Surface"]

@@ -1,85 +1,261 @@
-"""Shape and motion of the surfaces: reduced radii and speeds."""
+r"""Shapes of contacts: undeformed gap, dry contact, load, and the groups that follow.
+
+A shape is all that the equations know about it, in the units of its dry contact: X and Y in its
+half-widths, P in its largest pressure, H in a_x^2/R_x. The influence of a cell and the far field
+are in `tehl.operators.influence` and `tehl.operators.far_field`.
+"""
 
 import math
 from dataclasses import dataclass
+from typing import Protocol
 
-from tehl.base.errors import InputError
+from tehl.base.typing import Array, np
+from tehl.contact.bodies import Radii
+from tehl.contact.hertz import HertzContact, hertz_contact, load_of_pressure
+
+
+class Shape(Protocol):
+    """What the equations ask a shape for."""
+
+    @property
+    def load(self) -> float:
+        """Integral of the dry pressure over X and Y [-]."""
+
+    @property
+    def across(self) -> float:
+        """Curvature of the gap along Y, over that along X [-]."""
+
+    def gap(self, x: Array, y: Array) -> Array:
+        """Return the undeformed gap H [-] at X, Y that broadcast."""
+
+    def dry_pressure(self, x: Array, y: Array) -> Array:
+        """Return the dry pressure P [-] at X, Y that broadcast."""
+
+    def dry_gap(self, x: Array, y: Array) -> Array:
+        """Return the gap H of the dry contact [-] at X, Y that broadcast; zero in the contact."""
+
+    def hertz(self, load: float, radii: Radii, modulus: float) -> HertzContact:
+        """Return the dry contact under a load [N], for reduced radii [m] and E' [Pa]."""
+
+    def load_of_pressure(self, pressure: float, radii: Radii, modulus: float) -> float:
+        """Return the load [N] of a largest dry pressure [Pa]."""
+
+    def load_unit(self, radius: float, modulus: float) -> float:
+        """Return the load [N] of W = 1, for R_x [m] and E' [Pa]."""
+
+    @property
+    def speed_power(self) -> float:
+        """Power of 1/(2 U) in the Moes load, M = W (2 U)^-power."""
+
+    def ratio_squared(self, load: float, factor: float) -> float:
+        """Return (a_x/R_x)^2 [-] for W and the factor before the sum of the deflection."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Radii:
-    """Radii of curvature of a surface, or of a reduced contact."""
+class Ellipse:
+    """Circle or ellipse with axes along and across the entrainment."""
 
-    x: float
-    y: float
-    """Along and across entrainment [m]; infinite for a flat, negative for a hollow surface."""
+    ellipticity: float
+    """kappa = a_y/a_x."""
+    radius_ratio: float
+    """D = R_x/R_y."""
+
+    load = 2.0 * math.pi / 3.0
+    speed_power = 0.75
+
+    @property
+    def across(self) -> float:
+        """Return D kappa^2."""
+        return self.radius_ratio * self.ellipticity**2
+
+    def gap(self, x: Array, y: Array) -> Array:
+        """Return X^2/2 + D kappa^2 Y^2/2.
+
+        Parameters
+        ----------
+        x, y : Array
+            X and Y, which broadcast [-].
+        """
+        return 0.5 * x**2 + 0.5 * self.across * y**2
+
+    def dry_pressure(self, x: Array, y: Array) -> Array:
+        """Return sqrt(1 - X^2 - Y^2), zero outside the contact.
+
+        Parameters
+        ----------
+        x, y : Array
+            X and Y, which broadcast [-].
+        """
+        return np.sqrt(np.maximum(0.0, 1.0 - x**2 - y**2))
+
+    def dry_gap(self, x: Array, y: Array) -> Array:
+        r"""Return the gap of the dry Hertz contact, as H = h R_x / a_x^2 [-]; zero in the contact.
+
+        .. math:: H = \frac{1}{J} \int_0^t \left[\frac{X^2}{1+s^2}
+                  + \frac{\kappa^2 Y^2}{\kappa^2+s^2} - 1\right]
+                  \frac{ds}{\sqrt{(1+s^2)(\kappa^2+s^2)}}, \quad
+                  J = 2\int_0^\infty \frac{ds}{(1+s^2)^{3/2}\sqrt{\kappa^2+s^2}}
+
+        with t the confocal coordinate of the point. Gauss-Legendre on 48 points in arctan s.
+
+        Parameters
+        ----------
+        x, y : array, broadcast together
+            X, Y in Hertz half-widths of their own direction [-].
+
+        References
+        ----------
+        Johnson (1985), Contact Mechanics, section 3.5 (potential of an ellipsoidal pressure).
+        """
+        k2 = self.ellipticity**2
+        x2, y2 = np.broadcast_arrays(np.square(x), k2 * np.square(y))
+        half = 0.5 * (x2 + y2 - 1.0 - k2)
+        confocal = half + np.sqrt(np.maximum(half**2 - k2 + k2 * x2 + y2, 0.0))
+        end = np.arctan(np.sqrt(np.maximum(confocal, 0.0)))
+        nodes, weights = np.polynomial.legendre.leggauss(48)
+        gap = np.zeros(end.shape)
+        for node, weight in zip(0.5 * (nodes + 1.0), 0.5 * weights, strict=True):
+            s2 = np.tan(end * node) ** 2
+            bracket = x2 / (1.0 + s2) + y2 / (k2 + s2) - 1.0
+            gap += weight * bracket * np.sqrt((1.0 + s2) / (k2 + s2))
+        # J with s = tan(angle), smooth and periodic
+        angle = (np.arange(512) + 0.5) * (np.pi / 1024)
+        cosine, sine = np.cos(angle) ** 2, np.sin(angle) ** 2
+        return gap * end / (np.pi * np.mean(cosine / np.sqrt(k2 * cosine + sine)))
+
+    def hertz(self, load: float, radii: Radii, modulus: float) -> HertzContact:
+        """Return the dry contact.
+
+        Parameters
+        ----------
+        load, radii, modulus : float, Radii, float
+            Load [N], reduced radii [m], and E' [Pa].
+        """
+        return hertz_contact(load, radii.x, radii.y, modulus)
+
+    def load_of_pressure(self, pressure: float, radii: Radii, modulus: float) -> float:
+        """Return the load [N].
+
+        Parameters
+        ----------
+        pressure, radii, modulus : float, Radii, float
+            Largest dry pressure [Pa], reduced radii [m], and E' [Pa].
+        """
+        return load_of_pressure(pressure, radii.x, radii.y, modulus)
+
+    def load_unit(self, radius: float, modulus: float) -> float:
+        """Return E' R_x^2 [N].
+
+        Parameters
+        ----------
+        radius, modulus : float
+            R_x [m] and E' [Pa].
+        """
+        return modulus * radius**2
+
+    def ratio_squared(self, load: float, factor: float) -> float:
+        """Return (a_x/R_x)^2 [-].
+
+        Parameters
+        ----------
+        load, factor : float
+            W = w/(E' R_x^2), and 2 Pi/pi [-].
+        """
+        return math.cbrt(3.0 * load / (math.pi**2 * self.ellipticity * factor)) ** 2
 
 
-def reduced_radius(first: float, second: float) -> float:
-    """Return R with ``1/R = 1/R_1 + 1/R_2`` [m].
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Line contact without ends: nothing changes along Y, and all loads are those of one metre.
 
-    Parameters
-    ----------
-    first, second : float
-        Radii of both surfaces in one plane [m]; infinite is flat, negative is hollow.
-
-    Raises
-    ------
-    ValueError
-        If the surfaces do not curve apart, so that they have no point contact.
+    Its half-width along Y is one metre, its nodes are one row, whose cell has the width one.
     """
-    curvature = 1.0 / first + 1.0 / second
-    if curvature == 0.0 and math.isinf(first):
-        raise ValueError("flat on flat is not a point contact: one radius must be finite")
-    if not curvature > 0.0:
-        raise ValueError(
-            f"radii {first:g} m and {second:g} m do not curve apart: 1/R1 + 1/R2 must be positive"
+
+    load = 0.5 * math.pi
+    speed_power = 0.5
+    across = 0.0
+
+    def gap(self, x: Array, y: Array) -> Array:
+        """Return X^2/2.
+
+        Parameters
+        ----------
+        x, y : Array
+            X and Y, which broadcast [-].
+        """
+        return 0.5 * x**2 + 0.0 * y
+
+    def dry_pressure(self, x: Array, y: Array) -> Array:
+        """Return sqrt(1 - X^2), zero outside the contact.
+
+        Parameters
+        ----------
+        x, y : Array
+            X and Y, which broadcast [-].
+        """
+        return np.sqrt(np.maximum(0.0, 1.0 - x**2)) + 0.0 * y
+
+    def dry_gap(self, x: Array, y: Array) -> Array:
+        """Return (X sqrt(X^2 - 1) - arcosh X)/2 of |X| > 1.
+
+        Parameters
+        ----------
+        x, y : Array
+            X and Y, which broadcast [-].
+
+        References
+        ----------
+        Johnson (1985), Contact Mechanics, section 4.2.
+        """
+        x = np.maximum(np.abs(x), 1.0)
+        return 0.5 * (x * np.sqrt(x**2 - 1.0) - np.arccosh(x)) + 0.0 * y
+
+    def hertz(self, load: float, radii: Radii, modulus: float) -> HertzContact:
+        """Return the dry contact; its approach depends on the bodies far away, and is not known.
+
+        Parameters
+        ----------
+        load, radii, modulus : float, Radii, float
+            Load of one metre [N], reduced radii [m], and E' [Pa].
+        """
+        half_width = math.sqrt(8.0 * load * radii.x / (math.pi * modulus))
+        return HertzContact(
+            half_width_x=half_width,
+            half_width_y=1.0,
+            pressure=2.0 * load / (math.pi * half_width),
+            approach=math.nan,
+            ellipticity=math.inf,
         )
-    return 1.0 / curvature
+
+    def load_of_pressure(self, pressure: float, radii: Radii, modulus: float) -> float:
+        """Return the load of one metre [N].
+
+        Parameters
+        ----------
+        pressure, radii, modulus : float, Radii, float
+            Largest dry pressure [Pa], reduced radii [m], and E' [Pa].
+        """
+        return 2.0 * math.pi * radii.x * pressure**2 / modulus
+
+    def load_unit(self, radius: float, modulus: float) -> float:
+        """Return E' R_x of one metre [N].
+
+        Parameters
+        ----------
+        radius, modulus : float
+            R_x [m] and E' [Pa].
+        """
+        return modulus * radius
+
+    def ratio_squared(self, load: float, factor: float) -> float:
+        """Return (b/R_x)^2 [-].
+
+        Parameters
+        ----------
+        load, factor : float
+            W = w/(E' R_x) with the load per length w, and 2 Pi/pi [-].
+        """
+        return 4.0 * load / (math.pi**2 * factor)
 
 
-def reduced_radii(first: Radii, second: Radii) -> Radii:
-    """Return the reduced radii of two surfaces.
-
-    Parameters
-    ----------
-    first, second : Radii
-        Radii along x and y of each surface [m], with the signs of :func:`reduced_radius`.
-
-    Raises
-    ------
-    ValueError
-        If the surfaces do not curve apart along x or along y.
-    """
-    return Radii(x=reduced_radius(first.x, second.x), y=reduced_radius(first.y, second.y))
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Motion:
-    """Speeds of the two surfaces along x."""
-
-    entrainment_speed: float
-    """u_m = (u_1 + u_2) / 2 [m/s]."""
-    slide_roll_ratio: float = 0.0
-    """(u_1 - u_2) / u_m [-]."""
-
-    @property
-    def speed_1(self) -> float:
-        """Return the speed of surface 1, at z = 0 [m/s]."""
-        return self.entrainment_speed * (1.0 + 0.5 * self.slide_roll_ratio)
-
-    @property
-    def speed_2(self) -> float:
-        """Return the speed of surface 2, at z = h [m/s]."""
-        return self.entrainment_speed * (1.0 - 0.5 * self.slide_roll_ratio)
-
-    @property
-    def sliding_speed(self) -> float:
-        """Return u_1 - u_2 [m/s]."""
-        return self.entrainment_speed * self.slide_roll_ratio
-
-    def speed_of(self, surface: int) -> float:
-        """Return the speed of surface 1 or 2 [m/s]; raise InputError for any other number."""
-        if surface not in (1, 2):
-            raise InputError(f"surface = {surface}: must be 1 or 2")
-        return self.speed_1 if surface == 1 else self.speed_2
+LINE = Line()

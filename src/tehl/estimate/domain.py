@@ -62,7 +62,7 @@ def gap_widths(groups: Groups) -> tuple[float, float]:
     In half-widths a_x and a_y: the pressure of a thick film extends over a few of them.
     """
     along = math.sqrt(2.0 * expected_central_film(groups))
-    return along, along / math.sqrt(groups.radius_ratio) / groups.ellipticity
+    return along, along / math.sqrt(groups.shape.across)
 
 
 def recommended_domain(groups: Groups, error: float = USUAL_PLAIN_ERROR) -> Domain:
@@ -125,13 +125,13 @@ def domain_error(groups: Groups, domain: Domain) -> float:
     domain : Domain
         Edges in Hertz half-widths.
     """
-    stretch = math.sqrt(groups.radius_ratio) * groups.ellipticity
+    stretch = math.sqrt(groups.shape.across)
     side = stretch * min(-domain.y[0], domain.y[1])
     inlet = -domain.x[0]
     # integral of |X| / (X^2 + Y^2)^2 upstream of the contact and outside the rectangle
     beyond = 1.0 / side + math.atan(side / inlet) / inlet
     amplitude = 4.0 * groups.lambda_bar / ((3.0 + 2.0 * groups.radius_ratio) * stretch)
-    missing = amplitude * beyond / (2.0 * math.pi / 3.0)
+    missing = amplitude * beyond / groups.shape.load
     heavier = replace(groups, M=1.02 * groups.M)
     films = [expected_central_film(one) / moes_film_unit(one) for one in (groups, heavier)]
     slope = math.log(films[0] / films[1]) / math.log(1.02)
@@ -353,7 +353,7 @@ def _around_asperities(scaled: ScaledProblem, domain: Domain) -> Domain:
     """Return a domain on whose edges the asperities are `SEPARATION_WITHOUT_CONTACT`."""
     groups, sigma = scaled.groups, scaled.problem.asperity_rms / scaled.scales.film_thickness
     along = math.sqrt(1.0 + 2.0 * EDGE_GAP_MARGIN * SEPARATION_WITHOUT_CONTACT * sigma)
-    across = along / math.sqrt(groups.radius_ratio) / groups.ellipticity
+    across = along / math.sqrt(groups.shape.across)
     inlet = max(-domain.x[0], along)
     outlet, side = max(domain.x[1], OUTLET * inlet, along), max(domain.y[1], across)
     x, side = math.ceil(10.0 * max(inlet, outlet / OUTLET)) / 10.0, math.ceil(10.0 * side) / 10.0

@@ -43,7 +43,7 @@ def kept_part(scaled: ScaledProblem, inlet: float, y: Array) -> Array:
     groups, peclet = scaled.entering, film_peclet(scaled)
     if not peclet:
         return np.ones(y.shape)
-    s = np.sqrt(groups.radius_ratio * (groups.ellipticity * y) ** 2 + 2 * _film(scaled))
+    s = np.sqrt(groups.shape.across * y**2 + 2 * _film(scaled))
     distance = 2.0 / s**3 * np.arctan2(s, inlet) - 2.0 * inlet / (s**2 * (inlet**2 + s**2))
     kept: Array = np.exp(-(np.pi**2) / peclet * distance)
     return kept

@@ -103,9 +103,8 @@ class Asymptotes:
 
 
 def hertz_ratio_squared(groups: Groups) -> float:
-    """Return ``(a_x / R_x)^2`` [-], from W, the ellipticity and the deflection factor."""
-    cube = 3.0 * groups.W / (math.pi**2 * groups.ellipticity * groups.deflection_factor)
-    return math.cbrt(cube) ** 2
+    """Return ``(a_x / R_x)^2`` [-], from W, the shape and the deflection factor."""
+    return groups.shape.ratio_squared(groups.W, groups.deflection_factor)
 
 
 def moes_film_unit(groups: Groups) -> float:

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from tehl.contact.problem import ContactProblem
+from tehl.contact.shape import Ellipse, Shape
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -49,6 +50,11 @@ class Groups:
     """D = R_x / R_y."""
     deflection_factor: float
     """2 Pi / pi with Pi = p_h R_x / (E' a_x): the factor before the kernel sum (circle 2/pi^2)."""
+
+    @property
+    def shape(self) -> Shape:
+        """The shape of the contact."""
+        return Ellipse(ellipticity=self.ellipticity, radius_ratio=self.radius_ratio)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -100,10 +106,10 @@ def groups(problem: ContactProblem) -> Groups:
     """Return the dimensionless groups of ``problem``."""
     hertz, modulus, radius = problem.hertz, problem.reduced_modulus, problem.radius_x
     speed, material = problem.speed_group, problem.material_group
-    load = problem.load / (modulus * radius**2)
+    load = problem.load / problem.shape.load_unit(radius, modulus)
     viscous = 12.0 * problem.ambient_viscosity * problem.entrainment_speed
     return Groups(
-        M=load * (2.0 * speed) ** -0.75,
+        M=load * (2.0 * speed) ** -problem.shape.speed_power,
         L=material * (2.0 * speed) ** 0.25,
         U=speed,
         W=load,
@@ -130,7 +136,7 @@ def _with_viscosity(known: Groups, factor: float) -> Groups:
     """Return the groups of the same contact with ``factor`` times the viscosity."""
     return replace(
         known,
-        M=known.M * factor**-0.75,
+        M=known.M * factor**-known.shape.speed_power,
         L=known.L * factor**0.25,
         U=known.U * factor,
         lambda_bar=known.lambda_bar * factor,

@@ -197,7 +197,7 @@ def starved_domain(scaled: ScaledProblem) -> Domain:
     """Return a domain that contains the film of a starved contact, in Hertz half-widths."""
     oil, groups = entering_oil(scaled), scaled.groups
     assert oil is not None
-    across = groups.radius_ratio * groups.ellipticity**2
+    across = groups.shape.across
     # far upstream the pressure returns 3/(3 + 2 D) of the oil that the surfaces drag in
     backflow = 1.5 / groups.radius_ratio + 1.0
     margin = MENISCUS_GAP_MARGIN + MENISCUS_GAP_SLOPE * min(

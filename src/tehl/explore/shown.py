@@ -9,7 +9,6 @@ from tehl.base.typing import Array
 from tehl.explore.numbers import Number, numbers
 from tehl.plots.frame import span_part, stretched, window, window_part
 from tehl.plots.interferogram import Optics, colours
-from tehl.post.film import hertz_pressure
 from tehl.report.explain import Explanation
 from tehl.result.solution import Settings
 
@@ -162,7 +161,7 @@ def _lines(result: Result) -> Lines:
     x, y = (span_part(*one) for one in zip((scaled.x, scaled.y), window(result), strict=True))
 
     def line(place: Array, along: Array, fields: tuple[Array, Array]) -> Line:
-        dry = hertz * hertz_pressure(along, np.zeros(1))
+        dry = hertz * result.groups.shape.dry_pressure(along, np.zeros(1))
         return place * 1e6, _single(fields[0]), _single(fields[1]), dry
 
     return Lines(

@@ -1,12 +1,7 @@
-"""Load balance, integral of P = 2 pi / 3 (docs/theory/model.md), which fixes the rigid approach."""
-
-import numpy as np
+"""Load balance (docs/theory/model.md), which fixes the rigid approach."""
 
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
-
-TARGET = 2.0 * np.pi / 3.0
-"""Integral of the Hertz pressure over X, Y, for any ellipticity."""
 
 
 class Load:

@@ -28,7 +28,7 @@ from tehl.plots.frame import (
 )
 from tehl.plots.maps import FILTERED, heights_of
 from tehl.plots.temperature import Line, rises
-from tehl.post.film import Profile, hertz_pressure, profile_x, profile_y
+from tehl.post.film import Profile, profile_x, profile_y
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import film_histogram, rough_film
 from tehl.result.solution import Solution
@@ -129,7 +129,7 @@ def rough_centre_line(
     place = result.x[inside] * MICRO
     picture = figure(result, (7.6, 7.0), title=title)
     upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[1.5, 1.0])
-    dry = hertz_pressure(result.scaled.x[inside], result.scaled.y[row])
+    dry = result.groups.shape.dry_pressure(result.scaled.x[inside], result.scaled.y[row])
     upper.plot(place, dry * result.scales.hertz_pressure * GIGA, color="0.45", ls="--", lw=1.0)
     film = upper.twinx()
     for one, width in ((result, 1.4), *([(smooth, 0.7)] if smooth else [])):

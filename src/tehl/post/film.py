@@ -57,66 +57,16 @@ def profile_y(result: Solution) -> Profile:
 def _profile(result: Solution, line: tuple[int, slice] | tuple[slice, int]) -> Profile:
     along_x = isinstance(line[0], int)
     scaled_x, scaled_y = result.scaled.x[line[1]], result.scaled.y[line[0]]
-    gap = dry_gap(scaled_x, scaled_y, result.groups.ellipticity)
+    shape = result.groups.shape
     return Profile(
         coordinate=result.x if along_x else result.y,
         scaled_coordinate=result.scaled.x if along_x else result.scaled.y,
         pressure=result.pressure[line],
-        hertz_pressure=hertz_pressure(scaled_x, scaled_y) * result.scales.hertz_pressure,
+        hertz_pressure=shape.dry_pressure(scaled_x, scaled_y) * result.scales.hertz_pressure,
         film_thickness=result.film_thickness[line],
-        dry_gap=gap * result.scales.film_thickness,
+        dry_gap=shape.dry_gap(scaled_x, scaled_y) * result.scales.film_thickness,
         at=float(result.y[line[0]]) if along_x else float(result.x[line[1]]),
     )
-
-
-def hertz_pressure(x: Array, y: Array) -> Array:
-    r"""Return the dry Hertz pressure P [-] at X, Y [Hertz half-widths].
-
-    .. math:: P = \sqrt{\max(0,\; 1 - X^2 - Y^2)}
-
-    Parameters
-    ----------
-    x, y : Array
-        Coordinates that broadcast against each other [a_x], [a_y].
-    """
-    return np.sqrt(np.maximum(0.0, 1.0 - x**2 - y**2))
-
-
-def dry_gap(x: Array, y: Array, ellipticity: float) -> Array:
-    r"""Return the gap of the dry Hertz contact, as H = h R_x / a_x^2 [-]; zero in the contact.
-
-    .. math:: H = \frac{1}{J} \int_0^t \left[\frac{X^2}{1+s^2}
-              + \frac{\kappa^2 Y^2}{\kappa^2+s^2} - 1\right]
-              \frac{ds}{\sqrt{(1+s^2)(\kappa^2+s^2)}}, \quad
-              J = 2\int_0^\infty \frac{ds}{(1+s^2)^{3/2}\sqrt{\kappa^2+s^2}}
-
-    with t the confocal coordinate of the point. Gauss-Legendre on 48 points in arctan s.
-
-    Parameters
-    ----------
-    x, y : array, broadcast together
-        X, Y in Hertz half-widths of their own direction [-].
-    ellipticity : float
-        kappa = a_y / a_x.
-
-    References
-    ----------
-    Johnson (1985), Contact Mechanics, section 3.5 (potential of an ellipsoidal pressure).
-    """
-    k2 = ellipticity**2
-    x2, y2 = np.broadcast_arrays(np.square(x), k2 * np.square(y))
-    half = 0.5 * (x2 + y2 - 1.0 - k2)
-    confocal = half + np.sqrt(np.maximum(half**2 - k2 + k2 * x2 + y2, 0.0))
-    end = np.arctan(np.sqrt(np.maximum(confocal, 0.0)))
-    nodes, weights = np.polynomial.legendre.leggauss(48)
-    gap = np.zeros(end.shape)
-    for node, weight in zip(0.5 * (nodes + 1.0), 0.5 * weights, strict=True):
-        s2 = np.tan(end * node) ** 2
-        bracket = x2 / (1.0 + s2) + y2 / (k2 + s2) - 1.0
-        gap += weight * bracket * np.sqrt((1.0 + s2) / (k2 + s2))
-    angle = (np.arange(512) + 0.5) * (np.pi / 1024)  # J with s = tan(angle), smooth and periodic
-    cosine, sine = np.cos(angle) ** 2, np.sin(angle) ** 2
-    return gap * end / (np.pi * np.mean(cosine / np.sqrt(k2 * cosine + sine)))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

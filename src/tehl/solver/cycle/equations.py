@@ -22,7 +22,7 @@ from tehl.operators.far_field import FarField
 from tehl.operators.film import gap
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence, influence_of
-from tehl.operators.load import TARGET, Load
+from tehl.operators.load import Load
 from tehl.operators.reynolds import steady_stencil
 from tehl.operators.summits import AsperityTable, asperity_table
 
@@ -102,7 +102,7 @@ class Equations:
                 options.deformation, grid, groups, exact=options.accuracy == "tight"
             ),
             load=Load(grid),
-            target=load * TARGET,
+            target=load * groups.shape.load,
             gap=gap(grid, groups),
             far_field=(
                 FarField(grid, scaled.entering) if options.has_far_field and not starved else None

@@ -16,8 +16,7 @@ from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.kernels import properties, reynolds, summits, transfer
 from tehl.operators.far_field import FarField
-from tehl.operators.film import hertz_pressure
-from tehl.operators.load import TARGET
+from tehl.operators.film import dry_pressure
 from tehl.operators.transfer import refine
 from tehl.result.solution import Solution
 from tehl.solver.cycle.equations import Equations, Sources
@@ -351,7 +350,7 @@ class Level:
             Load over that of the contact [-].
         """
         self.sources.history, self.heights = history, heights
-        self.sources.load = load * TARGET
+        self.sources.load = load * self.equations.groups.shape.load
         self.is_finest = True
         self.apply_heights(1.0)
         self.smoother.frozen[:] = 0
@@ -384,7 +383,7 @@ class Level:
         pressure of the dry contact. Soft ones would be pressed far into each other in it.
         """
         self.pose_problem()
-        self.set_state(hertz_pressure(self.grid), 0.0)
+        self.set_state(dry_pressure(self.grid, self.equations.groups), 0.0)
         laws = self.equations.asperities
         middle = expected_film if laws is None else laws.separation(expected_film)
         if laws is None or laws.pressure(middle) <= LARGEST_SHARE_FROM_HERTZ:

@@ -7,7 +7,7 @@ import numpy as np
 from tehl.contact.boundary_contact import TOUCHING_MARGIN
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState
-from tehl.operators.film import hertz_pressure
+from tehl.operators.film import dry_pressure
 from tehl.operators.heated_film import stress_unit
 from tehl.operators.loaded_zone import contact_mean, is_inside, wet_part, zone_of
 from tehl.post.heat import Rises, lagrange_weights
@@ -84,7 +84,7 @@ def _spike(level: Level) -> dict[str, float]:
     """Return the pressure where it exceeds that of Hertz most, downstream, and its excess [-]."""
     behind = level.grid.x > SPIKE_FROM
     pressure = level.film.p[:, behind]
-    excess = pressure - hertz_pressure(level.grid)[:, behind]
+    excess = pressure - dry_pressure(level.grid, level.equations.groups)[:, behind]
     return {"spike": float(pressure.flat[excess.argmax()]), "excess": float(excess.max())}
 
 

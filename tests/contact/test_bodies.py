@@ -1,0 +1,49 @@
+"""Reduced radii, speeds of the surfaces, and the height of a smooth one."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tehl.contact.bodies import Motion, Radii, reduced_radii, reduced_radius
+from tehl.roughness import Smooth
+
+
+def test_curvatures_add():
+    assert reduced_radius(0.02, 0.03) == pytest.approx(0.012)
+    assert reduced_radius(0.02, math.inf) == pytest.approx(0.02)
+
+
+def test_a_ball_in_a_groove_is_a_contact():
+    assert reduced_radius(0.01, -0.02) == pytest.approx(0.02)
+
+
+def test_flat_on_flat_is_rejected():
+    with pytest.raises(ValueError, match="flat on flat"):
+        reduced_radius(math.inf, math.inf)
+
+
+@pytest.mark.parametrize(("first", "second"), [(0.01, -0.01), (0.02, -0.01), (-0.01, math.inf)])
+def test_surfaces_that_do_not_curve_apart_are_rejected(first: float, second: float):
+    with pytest.raises(ValueError, match="do not curve apart"):
+        reduced_radius(first, second)
+
+
+def test_both_directions_are_reduced():
+    roller = reduced_radii(Radii(x=0.01, y=0.1), Radii(x=math.inf, y=math.inf))
+    assert (roller.x, roller.y) == (pytest.approx(0.01), pytest.approx(0.1))
+
+
+@pytest.mark.parametrize("slip", [-2.0, -0.25, 0.0, 1.0, 3.0])
+def test_the_speeds_have_the_stated_mean_and_slide_roll_ratio(slip: float):
+    motion = Motion(entrainment_speed=1.5, slide_roll_ratio=slip)
+    assert (motion.speed_1 + motion.speed_2) / 2 == pytest.approx(1.5)
+    assert (motion.speed_1 - motion.speed_2) / 1.5 == pytest.approx(slip)
+    assert motion.sliding_speed == pytest.approx(motion.speed_1 - motion.speed_2)
+
+
+def test_a_smooth_surface_has_zero_height_in_the_shape_of_its_points():
+    x, y = np.linspace(-1, 1, 5), np.linspace(-1, 1, 3)[:, None]
+    height = Smooth().height(x, y, 2.0)
+    assert height.shape == (3, 5)
+    assert not height.any()
