@@ -13,6 +13,7 @@ from benchmarks import (
     domain,
     mixed,
     order,
+    pairs,
     rate,
     rough,
     speed,
@@ -34,6 +35,7 @@ TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "asperities": asperities.tables,
     "mixed": mixed.table,
     "touching": touching.table,
+    "pairs": pairs.table,
 }
 BY_DEFAULT = ("speed", "rate", "deformation")
 
@@ -58,7 +60,7 @@ def main() -> None:
     tables = []
     for topic in given.topics or BY_DEFAULT:
         make = TOPICS[topic]
-        if topic in ("rough", "asperities", "mixed", "touching"):
+        if topic in ("rough", "asperities", "mixed", "touching", "pairs"):
             make = partial(make, given.points)
         made = make(quick=given.quick)
         for table in [made] if isinstance(made, Table) else made:

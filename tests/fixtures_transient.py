@@ -99,6 +99,7 @@ def passing(
             pressure_max=pressure.max(axis=(1, 2)),
             traction=np.linspace(-0.04, -0.05, time.size),
             asperity_load=np.zeros_like(time),
+            solid_friction=np.zeros_like(time),
             rigid_approach=np.full_like(time, -0.9),
             temperature_rise=np.zeros_like(time),
             cycles=np.r_[0, np.full(STEPS, 3)],

@@ -17,7 +17,7 @@ from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import TOUCHING
 from tehl.solver.cycle.relaxation import ROUGH
 from tehl.solver.judging.convergence import DivergedError
-from tehl.solver.physics.boundary_cycle import MOST_NODES, TouchingCycle
+from tehl.solver.physics.boundary_cycle import TouchingCycle
 from tests.reference import moes_contact
 from tests.solver.rough import wavy
 from tests.solver.test_touching import through_film
@@ -40,7 +40,7 @@ def test_the_contact_pressure_is_that_of_a_complementarity_problem(mirror: bool)
     level.update()
     apart = level.separation.copy()
 
-    TouchingCycle(level, lambda: None)._settle(12)
+    TouchingCycle([level], lambda: None)._settle(12, 1e-12)
 
     # P_c >= 0, K P_c + H - H_c >= 0, complementary: least squares with the Cholesky factor of K
     influence = dense_matrix(grid.shape, mirror, level.equations.influence)
@@ -63,16 +63,33 @@ def test_the_contact_pressure_is_that_of_a_complementarity_problem(mirror: bool)
     assert (level.separation[inner] >= least - 1e-12).all()
 
 
-def test_more_nodes_than_a_dense_system_has_are_left_to_newtons_method():
+@pytest.mark.parametrize("mirror", [False, True])
+def test_the_response_keeps_the_contact_closed(mirror: bool):
+    """A step of the rigid approach leaves H = H_c and moves the load by the stiffness."""
     problem = through_film(moes_contact(100.0, 5.0), 0.5)
-    grid = Grid(nx=65, ny=65, domain=SQUARE, mirror=False)
-    level = Hierarchy.on(grid, ScaledProblem.of(problem), Options(points=65), ROUGH).finest
+    grid = Grid(nx=65, ny=65, domain=SQUARE, mirror=mirror)
+    options = Options(points=65, edges="zero", domain=SQUARE, deformation="fft")
+    level = Hierarchy.on(grid, ScaledProblem.of(problem), options, ROUGH).finest
     level.start_from_hertz(0.1)
-    level.set_state(0.0 * level.film.p, level.rigid_approach - 1.0)
+    level.set_state(0.4 * level.film.p, level.rigid_approach - 0.8)
+    cycle = TouchingCycle([level], lambda: None)
+    for _ in range(4):
+        cycle._settle(12)
+    assert np.count_nonzero(level.share.touching) * (1 + mirror) > 1200
+    indented = cycle._respond()
+    response, touching = level.share.response, level.share.touching.copy()
+    load, separation = level.load_error() * level.sources.load, level.separation.copy()
+    level.move(-0.01)
+    answered = -level.missing_load()
+    cycle._take_response(indented)
+    level.share.stays = True
     level.update()
-    assert np.count_nonzero(level.touching) > MOST_NODES
-    with pytest.raises(DivergedError):
-        TouchingCycle(level, lambda: None)._settle(12)
+    moved = level.separation - separation
+    assert moved[touching] == pytest.approx(0.0, abs=3e-5)
+    assert moved == pytest.approx(-0.01 * response.lift, abs=3e-5)
+    taken = level.load_error() * level.sources.load
+    assert taken - load == pytest.approx(0.01 * response.stiffness, rel=1e-9)
+    assert answered == pytest.approx(taken, rel=1e-9)
 
 
 def test_a_film_that_is_not_finite_has_diverged():
@@ -82,7 +99,7 @@ def test_a_film_that_is_not_finite_has_diverged():
     level.start_from_hertz(0.1)
     level.sources.film[16, 16] = -np.inf
     with pytest.raises(DivergedError):
-        TouchingCycle(level, lambda: None)._settle(12)
+        TouchingCycle([level], lambda: None)._settle(12)
 
 
 @pytest.fixture(scope="module")

@@ -250,20 +250,6 @@ def check_contact_film(problem: PointContact) -> None:
             f"contact_film.thickness = {film.thickness:g} m is not a boundary film: it must be "
             f'between {THINNEST_BOUNDARY_FILM:g} and {THICKEST_BOUNDARY_FILM:g} m, such as "5 nm"'
         )
-    excluded = {
-        "asperities": problem.asperities is not None,
-        "supply": problem.supply is not None,
-        "cavitation": problem.conserves_oil,
-        "thermal": problem.thermal is not None,
-        "lubricant.shear": not problem.lubricant.shear.is_newtonian,
-    }
-    for name, is_stated in excluded.items():
-        if is_stated:
-            raise ValueError(
-                f"contact_film and {name} exclude each other: contact through a boundary film is "
-                "computed in isothermal, Newtonian, fully flooded films with the heights "
-                f"of the surfaces; leave out contact_film or {name}"
-            )
 
 
 def check_radii(problem: PointContact) -> None:

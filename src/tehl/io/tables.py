@@ -134,6 +134,7 @@ HISTORY = _table(
     ("pressure_max", "p_max", "Pa", "largest pressure"),
     ("traction", "traction", "1", "mid-film traction coefficient, over the load at that time"),
     ("asperity_load", "asperity_load", "1", "load on asperities, over the load at that time"),
+    ("solid_friction", "solid_friction", "1", "friction of asperities and contact, over that load"),
     ("rigid_approach", "H00", "1", "rigid approach"),
     ("temperature_rise", "temperature_rise", "K", "largest rise of the film over the oil entering"),
     ("temperature_rise", "film_rise_max", "K", "largest rise over the oil at the inlet"),

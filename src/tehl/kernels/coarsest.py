@@ -42,6 +42,7 @@ class Coarse(NamedTuple):
     second: FlagArray
     stiffness: Array
     asperity: Array
+    lift: Array
 
 
 class CoarseSystem(NamedTuple):
@@ -58,6 +59,7 @@ class CoarseSystem(NamedTuple):
     area: float
     missing_load: float
     nearest: float
+    yielding: float
 
 
 class Work(NamedTuple):
@@ -251,7 +253,7 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
 
 
 @helper
-def _add_slopes(system: CoarseSystem, work: Work, row: int, count: int) -> None:
+def _add_slopes(system: CoarseSystem, lift: Array, work: Work, row: int, count: int) -> None:
     """Add the derivatives at node ``near[0]`` to a row of the matrix, of all nodes in ``full``."""
     full, near, by_p, by_h = work.full, work.near, work.by_p, work.by_h
     for n in range(6):
@@ -260,7 +262,7 @@ def _add_slopes(system: CoarseSystem, work: Work, row: int, count: int) -> None:
                 full[m] += by_h[n] * system.influence[near[n], m]
     for n in range(6):
         full[near[n]] += by_p[n]
-        work.matrix[row, count] += by_h[n]
+        work.matrix[row, count] += by_h[n] * lift[near[n]]
 
 
 @helper
@@ -281,7 +283,7 @@ def _add_upstream(
         _add_face(state, stencil, work, SOUTH)
         if state.stiffness.shape[0] > 0:
             _soften(state, work)
-        _add_slopes(system, work, row, count)
+        _add_slopes(system, state.lift, work, row, count)
         here -= 1
 
 
@@ -303,7 +305,7 @@ def _assemble(
         _slopes(state, stencil, work)
         if state.stiffness.shape[0] > 0:
             _touch(state, system, work)
-        _add_slopes(system, work, row, count)
+        _add_slopes(system, state.lift, work, row, count)
         if stencil.conserves == STEADILY and not work.dry[here]:
             _add_upstream(state, stencil, system, work, (row, count, nx))
         for column in range(count):
@@ -311,8 +313,9 @@ def _assemble(
         work.rhs[row] = system.residual[here]
     for column in range(count):
         twice = stencil.mirror and work.free[column] >= nx
-        work.matrix[count, column] = system.area * (2.0 if twice else 1.0)
-    work.matrix[count, count] = 0.0
+        part = state.lift[work.free[column]]
+        work.matrix[count, column] = system.area * part * (2.0 if twice else 1.0)
+    work.matrix[count, count] = -system.yielding
     work.rhs[count] = system.missing_load
 
 

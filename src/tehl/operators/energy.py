@@ -125,15 +125,25 @@ class FilmState:
         if self.transient is not None:
             self.transient.set_pressure()
 
-    def rub(self, asperities: Array) -> None:
-        """Heat the surfaces by asperities that rub under the pressures ``grid.shape`` [-]."""
+    def rub(self, stress: Array, sheared: Array | None = None) -> None:
+        """Heat the surfaces by solids that rub.
+
+        Parameters
+        ----------
+        stress : array of ``grid.shape``
+            Friction coefficient times the pressure of the solids [-].
+        sheared : array of ``grid.shape`` or None
+            Zero where they rub in place of the oil, which then generates no heat, else 1.
+        """
         scaled = self.film.scaled
-        law, motion = scaled.problem.asperities, scaled.problem.motion
-        if law is None or not self.model.terms.heat:
+        if not self.model.terms.heat:
             return
+        motion = scaled.problem.motion
         sliding = abs(motion.speed_1 - motion.speed_2)
-        heat = law.friction * sliding * scaled.scales.hertz_pressure / self.film.flux_unit
-        self.solids.rub(heat * asperities.T)
+        heat = sliding * scaled.scales.hertz_pressure / self.film.flux_unit
+        self.solids.rub(heat * stress.T)
+        if sheared is not None:
+            self.fields.sheared[:, : sheared.shape[0]] = sheared.T
         if self.transient is None:
             self.solids.warm(self.walls)
         else:
@@ -195,7 +205,7 @@ class FilmState:
             for side, surface in zip(self.film.sides, self.surfaces, strict=True)
         ]
         self.transient = TransientFilm(self.fields, self.surfaces, self.grid.dx, time_step, paths)
-        if self.film.scaled.problem.asperities is not None:
+        if self.solids.rubbing is not None:
             self.transient.begin_rubbing(self.solids.rubbing)
         self.surfaces = Surfaces(*(without_history(surface) for surface in self.surfaces))
         self._set_terms(self.model.terms._replace(over_t=1.5 / time_step))
@@ -229,6 +239,7 @@ def _initial_fields(grid: Grid, film: HeatedFilm) -> Fields:
         temperature=temperature, past=np.zeros((1, 1, 1)), pressing=np.zeros((1, 1))
     )
     fields.capacity[:], fields.conductivity[:], fields.h[:] = 1.0, 1.0, FAR_FILM
+    fields.sheared[:] = 1.0
     return fields
 
 

@@ -22,7 +22,8 @@ from tehl.kernels.reynolds import Stencil
 class Neighbours(NamedTuple):
     """Matrices that select a neighbour of each inner node; rows of edge nodes are zero.
 
-    ``upstream`` is the upstream difference of the wedge.
+    ``upstream`` is the upstream difference of the wedge, ``open_west`` the part of the west faces
+    through which a pressure flows: none between a partly filled cell and the film behind it.
     """
 
     here: csr_matrix
@@ -31,6 +32,7 @@ class Neighbours(NamedTuple):
     north: csr_matrix
     south: csr_matrix
     upstream: csr_matrix
+    open_west: Array | float = 1.0
 
 
 def neighbour(
@@ -113,7 +115,7 @@ def jacobian(
     """
     n, (p, eps_x, eps_y) = neighbours, (field.ravel() for field in (film.p, film.eps_x, film.eps_y))
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
-    sides = ((n.east, half_x, eps_x), (n.west, half_x, eps_x),
+    sides = ((n.east, half_x, eps_x), (n.west, half_x * n.open_west, eps_x),
              (n.north, half_y, eps_y), (n.south, half_y, eps_y))  # fmt: skip
     flow, opening = csr_matrix(n.here.shape), csr_matrix(n.here.shape)
     # face flow (eps_here + eps_there)/2 (P_there - P_here): derivatives by P, then by eps

@@ -1,7 +1,7 @@
 """Pressure and flow of asperities finer than the grid, tabulated over the separation."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 
 import numpy as np
@@ -45,10 +45,13 @@ class AsperityTable:
         Their values and slopes at steps of H.
     separations : (n,) array
         The H of each row [-].
+    friction : float
+        Friction coefficient of the asperities [-].
     """
 
     laws: AsperityLaws
     separations: Array
+    friction: float = 0.0
 
     @property
     def sigma(self) -> float:
@@ -88,7 +91,8 @@ def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:
         return None
     pressure = law.unit(sigma, problem.reduced_modulus) / scales.hertz_pressure
     stamp = law.map.stamp if isinstance(law, SurfacePatch) else None
-    return _scaled(law, stamp, sliding_part(problem), pressure, sigma / scales.film_thickness)
+    found = _scaled(law, stamp, sliding_part(problem), pressure, sigma / scales.film_thickness)
+    return replace(found, friction=law.friction)
 
 
 @lru_cache(maxsize=4)  # one for all grids of a contact

@@ -22,12 +22,11 @@ def friction(run: TransientSolution) -> Array | None:
     None without asperities or a boundary film, and where the share of these is not known.
     """
     problem = run.start.problem
-    solid = problem.asperities or problem.contact_film
-    if solid is None or (problem.contact_film is not None and why_share_unknown(run)):
+    without = problem.asperities is None and problem.contact_film is None
+    if without or (problem.contact_film is not None and why_share_unknown(run)):
         return None
     slides = problem.slide_roll_ratio != 0.0
-    rubbed = solid.friction * run.history.asperity_load if slides else 0.0
-    return abs(run.history.traction) + rubbed
+    return abs(run.history.traction) + (run.history.solid_friction if slides else 0.0)
 
 
 def late_extremes(run: TransientSolution) -> tuple[str, ...]:

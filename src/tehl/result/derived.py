@@ -1,7 +1,6 @@
 """Quantities that follow from the numbers of a summary: of a result, or of a stored row."""
 
 from collections.abc import Callable
-from typing import Any
 
 from tehl.result.quantity import UNITS, Numbers
 
@@ -26,16 +25,17 @@ def kappa(numbers: Numbers) -> float | None:
 
 
 _SOLIDS = ("load_sharing", "touching")
-"""Blocks of what carries load beside the film, of which a contact has one at most."""
+"""Blocks of what carries load beside the film: asperities below the grid, and contact on it."""
 
 
 def _has(numbers: Numbers, block: str) -> bool:
     return any(numbers.get(f"{block}.{key}") is not None for key in ("area_m2", "share"))
 
 
-def _of_solids(numbers: Numbers, key: str) -> Any:
-    """Return a number of asperities or of touching surfaces; None where it is not known."""
-    return next((numbers.get(f"{one}.{key}") for one in _SOLIDS if _has(numbers, one)), None)
+def _of_solids(numbers: Numbers, key: str) -> float | None:
+    """Return a number summed over asperities and touching surfaces; None where it is not known."""
+    known = [numbers.get(f"{one}.{key}") for one in _SOLIDS if _has(numbers, one)]
+    return None if not known or None in known else float(sum(known))
 
 
 def has_solids(numbers: Numbers) -> bool:
@@ -45,8 +45,7 @@ def has_solids(numbers: Numbers) -> bool:
 
 def share(numbers: Numbers) -> float | None:
     """Return the load on solids over the load [-]; None without them, or if it is not known."""
-    known: float | None = _of_solids(numbers, "share")
-    return known
+    return _of_solids(numbers, "share")
 
 
 def share_error(numbers: Numbers) -> float | None:
@@ -59,11 +58,11 @@ def friction(numbers: Numbers) -> float | None:
     """Return the friction of film and solids; None if unknown, or more than an oil transmits."""
     if numbers.get("traction.credible") is False:
         return None
-    if has_solids(numbers):
-        known: float | None = _of_solids(numbers, "friction")
-        return known
     sliding = numbers.get("traction.mid_film")
-    return None if sliding is None else abs(sliding)
+    if not has_solids(numbers):
+        return None if sliding is None else abs(sliding)
+    rubbed = _of_solids(numbers, "friction_boundary")
+    return None if rubbed is None else abs(sliding or 0.0) + rubbed
 
 
 def friction_error(numbers: Numbers) -> float | None:
@@ -95,4 +94,4 @@ def power_loss(numbers: Numbers) -> float | None:
     if not has_solids(numbers):
         return float(film)
     rubbed = _of_solids(numbers, "power_boundary_w")
-    return None if rubbed is None else float(film + rubbed)
+    return None if rubbed is None else film + rubbed

@@ -341,7 +341,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "touching.share",
         _if_known("share"),
-        name="load_share",
+        name="contact_share",
         certified="following",
         unit="%",
     ),

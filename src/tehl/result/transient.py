@@ -47,8 +47,10 @@ class History:
     traction: Array
     """Mid-film traction coefficient of the film, over the load at that time [-]."""
     asperity_load: Array
-    """Load on asperities finer than the grid, or where surfaces touch through a boundary film, over
-    the load at that time [-]; zero without."""
+    """Load on asperities finer than the grid, and where surfaces touch through a boundary film,
+    over the load at that time [-]; zero without."""
+    solid_friction: Array
+    """Friction of both, positive, over the load at that time [-]."""
     rigid_approach: Array
     """H00 [-]."""
     temperature_rise: Array

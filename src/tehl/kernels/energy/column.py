@@ -56,7 +56,7 @@ def heat_sources(model: Model, line: Record, here: Record, k: int) -> tuple[Lane
     """Return shear power ``Br phi tau^2`` and compression ``-Cp T rho_T/rho (u.grad p + p_t)``."""
     terms = model.terms
     x, y = stress_at(terms, line, model.across.zeta[k] - 0.5)
-    shear = terms.brinkman * (x * x + y * y) * here.fluidity
+    shear = line.sheared * terms.brinkman * (x * x + y * y) * here.fluidity
     rise = -terms.compression * here.t / here.rho * here.rho_t
     return shear, rise * (here.u * line.p_x + here.v * line.p_y + line.p_t)
 

@@ -46,6 +46,7 @@ def _load_block(model: Model, fields: Fields, work: Work, place: Place) -> None:
     line.capacity = fields.capacity[i, rows]
     line.conductivity = conductivity
     line.over_scale = fields.over_scale[i, rows]
+    line.sheared = fields.sheared[i, rows]
     line.tau_x = fields.tau_x[i, rows]
     line.tau_y = fields.tau_y[i, rows]
     for k in range(layers.shape[0]):

@@ -24,15 +24,15 @@ LINE = np.dtype(
         (name, np.float64, (LANES,))
         for name in (
             *("p", "h", "p_x", "p_y", "p_t", "capacity", "conductivity", "h2_over_k", "over_scale"),
-            *("tau_x", "tau_y", "thins", "excess_y", "pull"),
+            *("sheared", "tau_x", "tau_y", "thins", "excess_y", "pull"),
         )
     ]
     + [("terms", np.float64, (TERMS, LANES))]
 )
 """A block of rows: pressure, film, slopes of the pressure along x, y and in time, heat capacity and
-conductivity over those at ambient pressure, h^2/k, one over the stress scale; mid-film stress;
-whether the oil thins; largest relative excess of the tangent fluidity along y; sum of share times
-temperature; coefficients of the laws at these pressures."""
+conductivity over those at ambient pressure, h^2/k, one over the stress scale; part of the shear
+heat; mid-film stress; whether the oil thins; largest relative excess of the tangent fluidity along
+y; sum of share times temperature; coefficients of the laws at these pressures."""
 LAYER = np.dtype(
     [
         (name, np.float64, (LANES,))
@@ -165,7 +165,8 @@ class Fields(NamedTuple):
     """Fields of the film.
 
     In: ``p, h, px, py`` (nx, ny), ``capacity, conductivity`` ratios to those at ambient pressure,
-    ``over_scale`` one over the stress scale. In and out: ``temperature`` (nx + 4, n, ny + 4),
+    ``over_scale`` one over the stress scale, ``sheared`` 1, or 0 where surfaces rub in place of the
+    oil. In and out: ``temperature`` (nx + 4, n, ny + 4),
     ``tau_x, tau_y`` mid-film stress (nx, ny). In, in a transient run: ``past`` (nx, n, ny)
     contribution of former temperatures to the time derivative, ``pressing`` (nx, ny) time
     derivative of the pressure. Out: ``mobility, density`` of the Reynolds equation,
@@ -181,6 +182,7 @@ class Fields(NamedTuple):
     capacity: Array
     conductivity: Array
     over_scale: Array
+    sheared: Array
     temperature: Array
     tau_x: Array
     tau_y: Array

@@ -59,6 +59,8 @@ class Equations:
     """Laws of asperities finer than the grid; None without."""
     contact_film: float | None
     """Boundary film through which the surfaces may touch [-]; None has no contact."""
+    friction: float
+    """Friction coefficient where surfaces touch through it [-]."""
     floor: float
     """Least film in the conductance [-]: the discrete film of coarse grids may not be positive."""
 
@@ -91,7 +93,7 @@ class Equations:
         """
         groups, oil = scaled.groups, entering_oil(scaled)
         conserves = scaled.problem.conserves_oil
-        starved = oil is not None
+        starved, film = oil is not None, scaled.problem.contact_film
         return cls(
             grid=grid,
             groups=groups,
@@ -110,6 +112,7 @@ class Equations:
             layer=_layer(scaled, oil, grid),
             asperities=asperity_table(scaled),
             contact_film=boundary_film(scaled),
+            friction=0.0 if film is None else film.friction,
             floor=_floor(scaled),
         )
 
@@ -122,10 +125,10 @@ def boundary_film(scaled: ScaledProblem) -> float | None:
 
 def _floor(scaled: ScaledProblem) -> float:
     """Return the least film in the conductance [-]."""
+    if scaled.problem.asperities is not None:
+        return 0.0
     contact = boundary_film(scaled)
-    if contact is not None:
-        return contact
-    return FLOOR * supplied_film(scaled) if scaled.problem.asperities is None else 0.0
+    return FLOOR * supplied_film(scaled) if contact is None else contact
 
 
 def _layer(scaled: ScaledProblem, oil: EnteringOil | None, grid: Grid) -> Array | None:

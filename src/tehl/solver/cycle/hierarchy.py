@@ -62,13 +62,14 @@ class CoarsestSolver:
         stencil = level.equations.robust
         reynolds.operator(level.film, stencil, residual)
         np.subtract(level.sources.reynolds, residual, out=residual)
-        laws = level.equations.asperities
+        laws, answer = level.equations.asperities, level.share.response
         system = CoarseSystem(
             residual=residual,
             influence=self.influence,
             frozen=level.smoother.frozen,
             area=level.equations.load.area,
             missing_load=level.missing_load(),
+            yielding=0.0 if answer is None else answer.stiffness,
             nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
         )
         before = level.film.p.copy(), level.film.asperity.copy()
@@ -94,7 +95,7 @@ class CoarsestSolver:
 
     def _linearised(self) -> Coarse:
         """Return film and conductance with the derivatives of the conductance."""
-        film, factors = self.level.film, self.level.factors
+        film, factors, answer = self.level.film, self.level.factors, self.level.share.response
         by_pressure, by_film = self.level.conductance_slopes()
         ones = np.ones_like(film.p)
         stretch_x, stretch_y = (
@@ -115,6 +116,7 @@ class CoarsestSolver:
             second=film.second,
             stiffness=film.stiffness,
             asperity=film.asperity,
+            lift=ones if answer is None else answer.lift,
         )
 
 

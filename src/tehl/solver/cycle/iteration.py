@@ -185,7 +185,7 @@ class GridIteration:
         if newton:
             return MOST_TOUCHING if isinstance(newton, TouchingNewton) else MOST_NEWTON_STEPS
         most = MOST_CYCLES
-        if equations.contact_film is not None and self.roughness.is_on(levels):
+        if equations.contact_film is not None and not self._is_smoother_than_stated(levels):
             return MOST_TOUCHING
         if self.coupling.state is not None:
             # smooth parts of the temperature may converge slowly: on coarse grids that costs little
@@ -281,22 +281,24 @@ class GridIteration:
     @property
     def _balanced_below(self) -> float:
         """Residual below which a tight solve balances the oil; zero at other accuracies."""
-        return (
-            BALANCED_OVER_TOLERANCE * self.options.tolerance
-            if self.options.accuracy == "tight"
-            else 0.0
-        )
+        conserves = self.finest.stencil.conserves  # the flux through sections is its criterion
+        exactly = self.options.accuracy == "tight" and not conserves
+        return BALANCED_OVER_TOLERANCE * self.options.tolerance if exactly else 0.0
 
     def _cycle(self, levels: Sequence[Level]) -> Callable[[], None]:
         """Return the cycle on ``levels``, with contact if the heights of the last one may touch."""
         fine, cycle = levels[-1], partial(self.hierarchy.cycle, levels)
         if fine.equations.contact_film is None:
             return cycle
-        fine.keeps_contact = not self.roughness.is_on(levels)  # none between smooth surfaces
-        if fine.keeps_contact:
+        fine.share.stays = self._is_smoother_than_stated(levels)
+        if fine.share.stays:
             return cycle
         is_last = len(levels) == len(self.levels)
-        return TouchingCycle(fine, cycle, self._balanced_below if is_last else 0.0).step
+        return TouchingCycle(levels, cycle, self._balanced_below if is_last else 0.0).step
+
+    def _is_smoother_than_stated(self, levels: Sequence[Level]) -> bool:
+        """Return whether the last of ``levels`` does not resolve the heights: nothing touches."""
+        return self.roughness.is_rough and not self.roughness.is_on(levels)
 
     def _anderson(self, levels: Sequence[Level]) -> Anderson | None:
         """Return the acceleration of the cycles if the last of ``levels`` has asperities."""
@@ -360,7 +362,7 @@ class GridIteration:
         fine.update()
         heating = self.coupling.update(levels)
         report = self._report(fine, before, number, heating)
-        if fine.equations.contact_film is not None and fine is self.finest:
+        if fine.balance.conserves != fine.stencil.conserves and fine is self.finest:
             before_it, self.mass_error = self.mass_error, contact_balance(fine)
             rounded = report.residual <= ROUNDING_RESIDUAL and self.mass_error > 0.5 * before_it
             exactly = self.strategy.newton or self.options.accuracy == "tight"

@@ -115,6 +115,12 @@ TOUCHING = (
         patience=3,
     ),
     Strategy(
+        relaxation=CAREFUL,
+        continuation=Continuation(correction=0.4, limit=0.2, ramp=16),
+        patience=4,
+        damping=0.3,
+    ),
+    Strategy(
         relaxation=BESIDE_NEWTON,
         continuation=Continuation(points=5.0),
         newton=True,
@@ -139,7 +145,9 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
         Whether the surfaces have heights.
     """
     if problem.contact_film is not None:
-        return TOUCHING if rough else TOUCHING[-1:]  # a smooth contact touches all over
+        # Newton's method linearises neither partly filled cavities nor asperities below the grid
+        by_cycles = problem.conserves_oil or problem.asperities is not None
+        return TOUCHING[:-1] if by_cycles else TOUCHING
     if options.smoother != "auto":
         return (STATED[options.smoother],)
     if rough:

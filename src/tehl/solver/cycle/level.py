@@ -12,16 +12,16 @@ with I u the injected or weighted fine solution and R full weighting.
 
 import numpy as np
 
-from tehl.base.typing import Array
+from tehl.base.typing import Array, FlagArray
 from tehl.estimate.grid import Grid
-from tehl.kernels import properties, reynolds, summits, transfer
+from tehl.kernels import properties, reynolds, transfer
 from tehl.operators.far_field import FarField
-from tehl.operators.film import dry_pressure
 from tehl.operators.transfer import refine
 from tehl.result.solution import Solution
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Relaxation, make_smoother
 from tehl.solver.judging.film_summary import central_value
+from tehl.solver.physics.share import FILM_PER_PRESSURE, share_of
 
 PRESSURE_STEP = 1e-6
 """Step of the derivative of the conductance by pressure; its error is of this relative size."""
@@ -35,16 +35,6 @@ FRONT_SWEEPS, FRONT_WIDTH, FRONT_RESTS = (4, 16), 6, 0.03
 """Least and most sweeps where a starved film begins, nodes to both sides, and nodes that fill or
 empty over the number of lines below which the meniscus is stationary. Least CPU time of 20
 contacts (M 20 to 200, r 0.2 to 4, 257 nodes) that all converge."""
-FILM_PER_PRESSURE = 1.5
-"""Film of a smooth change of the pressure in the contact, over that change [-]: 4/pi in the middle
-of a uniform one over the Hertz circle, and somewhat more, as too little only takes longer."""
-LARGEST_SHARE_FROM_HERTZ = 0.1
-"""Share of the load by formula up to which cycles start from the Hertz pressure. Ten contacts of
-shares 1e-9 to 0.04 converge from it and not from the dry contact; one of share 1 takes 27 cycles
-from the dry contact and 50 from that of Hertz."""
-DRY_STEPS, DRY_PART, DRY_ERROR = 20, 0.5, 0.01
-"""Most steps to a dry contact, change of the rigid approach over the missing part of the load, and
-the part that ends them: it is only a start."""
 APPROACH_WEIGHT = 10.0
 """Weight of the rigid approach among the pressures in the vector of unknowns."""
 
@@ -66,30 +56,16 @@ class Level:
         if equations.layer is not None:
             partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
             self.film = self.film._replace(partial=partial, second=second, layer=equations.layer)
-        self.separation = h  # of the mean planes: the film but for asperities finer than the grid
-        if equations.asperities is not None:
-            self.separation = np.zeros(shape)
-            q, s, opening, channel = (np.zeros(shape) for _ in range(4))
-            self.film = self.film._replace(
-                asperity=q, stiffness=s, opening=opening, channel=channel
-            )
-            if equations.asperities.is_anisotropic:
-                self.film = self.film._replace(across=np.ones(shape), eps_y=np.zeros(shape))
-            if equations.asperities.slides:
-                self.film = self.film._replace(carried=np.ones(shape))
-        self.touching = np.zeros((0, 0), bool)  # nodes in contact through a boundary film
-        if equations.contact_film is not None:
-            self.separation, self.touching = np.zeros(shape), np.zeros(shape, bool)
-            partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
-            self.film = self.film._replace(partial=partial, second=second, asperity=np.zeros(shape))
+        self.share = share_of(equations)
+        self.film = self.share.extend(self.film)
+        # of the mean planes: the film itself where no solids carry load
+        self.separation = np.zeros(shape) if self.film.asperity.size else h
         self.keeps_orders = False  # the nodes of second order stay as they are
-        self.keeps_contact = False  # and those that touch
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
         self.residual = np.zeros(shape)
         self.restricted = (np.zeros(shape), 0.0)
         self.total = np.zeros(shape)  # pressure of oil and asperities
-        self.kept = np.zeros(shape)  # asperity pressure of that state
         self.heights: Array | None = None
         # of the correction of the next finer grid: factor, and limit of its relative change of P
         self.correction = relaxation.correction
@@ -123,16 +99,19 @@ class Level:
         In a time step there are none: what moves with the film stays in it. Coarser grids of a
         cycle correct the finest one by the usual wedge.
         """
-        touches = self.equations.contact_film is not None and self.is_finest
-        if not touches or self.stencil.w1 == 0.0:
+        if not (self.share.by_flux and self.is_finest) or self.stencil.w1 == 0.0:
             return self.stencil
         return self.stencil._replace(conserves=reynolds.STEADILY)
 
     @property
     def is_resolved(self) -> bool:
         """Whether the film exceeds the floor of the conductance, or is the boundary film."""
-        touches = self.equations.contact_film is not None
-        return touches or float(self.film.h.min()) > self.equations.floor
+        return self.share.bounds_film or float(self.film.h.min()) > self.equations.floor
+
+    @property
+    def frozen(self) -> FlagArray:
+        """Nodes whose oil pressure stays."""
+        return self.smoother.frozen
 
     # state
 
@@ -160,10 +139,11 @@ class Level:
 
         With asperities the oil stays cavitated where it is.
         """
-        if self.equations.asperities is None:
+        solids = self.film.asperity
+        if not solids.size:
             self.set_state(pressure, self.rigid_approach)
         else:
-            oil = np.where(self.film.p == 0.0, 0.0, pressure - self.film.asperity)
+            oil = np.where(self.film.p == 0.0, 0.0, pressure - solids)
             self.set_state(oil, self.rigid_approach, pressure - oil)
 
     def state(self) -> tuple[Array, float, Array]:
@@ -180,11 +160,6 @@ class Level:
         """Pressure of oil and asperities together, written anew at each access [-]."""
         film = self.film
         return np.add(film.p, film.asperity, out=self.total) if film.asperity.size else film.p
-
-    def asperity_load(self) -> float:
-        """Return the load on asperities over the load of the contact, zero without [-]."""
-        asperity = self.film.asperity
-        return self.equations.load.integral(asperity) / self.sources.load if asperity.size else 0.0
 
     def unknowns(self) -> Array:
         """Return pressure and weighted rigid approach as one vector, (n + 1,)."""
@@ -203,54 +178,14 @@ class Level:
         # the deflection is the largest part of the cost: once per change of the pressure
         self.equations.deformation.deflect(self.pressure, h)
         np.add(h, self.sources.film, out=h)
-        np.add(h, self.rigid_approach, out=h)
+        np.add(h, self.share.raised(self.rigid_approach), out=h)
         if self.far_field is not None:
             self.far_field.set_edges(self.film.p, h)
             self.sources.outside = self.far_field.load(h, self.equations.gap)
-        self._meet()
-        self._share(FILM_PER_PRESSURE)
+        self.share.follow(self, FILM_PER_PRESSURE)
         self._is_stale = False
         if self.stencil.conserves == reynolds.STEADILY and self.is_finest:
             self._mark_cavities()
-
-    def _share(self, reach: float) -> None:
-        """Evaluate the asperities at the present separation, and conductance and density.
-
-        ``reach`` as for `summits.touch`.
-        """
-        table, flow, frozen = self.equations.asperities, self.equations.flow, self.smoother.frozen
-        if table is not None:
-            summits.touch(self.film, self.separation, table.laws, flow, frozen, reach)
-        if table is None or self.factors is not None:
-            self.update_properties()
-
-    def _meet(self) -> None:
-        """Find where the surfaces touch: the film is the boundary film there.
-
-        Complementarity of contact pressure and gap by the sign of P_c - (H - H_c)/K_00 (primal-dual
-        active set: Hintermüller, Ito and Kunisch 2002). In a cycle the nodes that touch stay.
-        """
-        least, film, inner = self.equations.contact_film, self.film, (slice(None, -1), slice(1, -1))
-        if least is None:
-            return
-        if self.keeps_contact:
-            film.h[:] = self.separation
-        else:
-            gap = (self.separation - least) / self.equations.influence.self_film
-            self.touching[inner] = (film.asperity > gap)[inner]
-            if not self.grid.mirror:
-                self.touching[0] = False
-            np.maximum(self.separation, least, out=film.h)
-        if self.is_finest:
-            film.h[self.touching] = least
-
-    def missing_gap(self) -> float:
-        """Return the mean error of H = H_c where surfaces touch, as a pressure [-]."""
-        least = self.equations.contact_film
-        if least is None:
-            return 0.0
-        errors = np.where(self.touching, np.abs(self.separation - least), 0.0)
-        return float(errors.mean()) / self.equations.influence.self_film
 
     def _mark_cavities(self) -> None:
         """Mark partly filled nodes, and those that pass on oil with second order."""
@@ -258,7 +193,12 @@ class Level:
         scratch = np.empty((1, film.p.shape[1]))
         reynolds.mark_partial(film, stencil, self.sources.reynolds, scratch, self.smoother.ends)
         if not self.keeps_orders:
-            reynolds.mark_second_order(film, stencil)
+            self.set_orders()
+
+    def set_orders(self) -> None:
+        """Set the orders with which nodes pass on oil."""
+        reynolds.mark_second_order(self.film, self.stencil)
+        self.share.lower(self.film)
 
     def held_oil(self) -> Array:
         """Return the oil at each node after a time step, ``grid.shape`` [-].
@@ -299,19 +239,14 @@ class Level:
 
     def conductance_slopes(self) -> tuple[Array, Array]:
         """Return d eps/dP and d eps/dH at the present pressure and film, each ``grid.shape``."""
-        film, floor = self.film, self.equations.floor
+        film = self.film
         eps, rho, drho, eps_x, eps_y = (np.empty_like(film.p) for _ in range(5))
         shifted = properties.Film(
             film.p + PRESSURE_STEP, film.h, eps, rho, drho, eps_x, eps_y
         )._replace(channel=film.channel, across=film.across, carried=film.carried)
         self._evaluate(shifted)
         by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
-        laws = self.equations.asperities
-        if laws is not None:
-            return by_pressure, 3.0 * film.eps * laws.widening(self.separation) / film.channel
-        # eps grows as H^3 above the floor and is constant below it
-        by_film = np.where(film.h > floor, 3.0 * film.eps / np.maximum(film.h, floor), 0.0)
-        return by_pressure, by_film
+        return by_pressure, self.share.widening(self)
 
     def couple(self, factors: properties.Factors) -> None:
         """Set the factors of heat and shear thinning on mobility and density."""
@@ -333,7 +268,8 @@ class Level:
         """Set the right-hand sides of a steady problem: f = 0, g = gap - heights, w the load."""
         self.sources.reynolds[:] = 0.0
         self.sources.load = self.equations.target
-        self.is_finest, self.keeps_contact = True, False
+        self.is_finest = True
+        self.share.stays = False
         self.apply_heights(1.0)
         self.smoother.frozen[:] = 0  # the finest grid decides where the film ends
 
@@ -377,38 +313,9 @@ class Level:
             self.sources.reynolds -= self.sources.history
 
     def start_from_hertz(self, expected_film: float) -> None:
-        """Start from the Hertz pressure, with the rigid approach of the expected central film.
-
-        With asperities, at the separation of that film; where they carry much there, from the
-        pressure of the dry contact. Soft ones would be pressed far into each other in it.
-        """
+        """Start from the Hertz pressure, or of dry asperities, at the expected central film."""
         self.pose_problem()
-        self.set_state(dry_pressure(self.grid, self.equations.groups), 0.0)
-        laws = self.equations.asperities
-        middle = expected_film if laws is None else laws.separation(expected_film)
-        if laws is None or laws.pressure(middle) <= LARGEST_SHARE_FROM_HERTZ:
-            self.update()
-        else:
-            self._press_dry()
-            self.set_state(self.film.asperity, self.rigid_approach)  # of oil, shared in the update
-        self.move(middle - central_value(self.grid, self.separation))
-
-    def _press_dry(self) -> None:
-        """Let dry asperities carry the load, from the present pressure on.
-
-        Where oil is cavitated they follow their law; the rigid approach follows the load, which
-        grows as its power 3/2 (Hertz).
-        """
-        pressure, h = self.film.p.copy(), self.separation
-        self.equations.deformation.deflect(pressure, h)
-        self.set_state(np.zeros_like(pressure), -central_value(self.grid, h), pressure)
-        missing = -self.load_error()
-        for _ in range(DRY_STEPS):
-            self.move(-DRY_PART * min(max(missing, -1.0), 1.0))
-            self.update()
-            missing = -self.load_error()
-            if abs(missing) <= DRY_ERROR:
-                return
+        self.share.start(self, expected_film)
 
     def interpolate_from(self, coarse: "Level") -> None:
         """Start from the solution of the next coarser grid, by cubic interpolation."""
@@ -418,7 +325,7 @@ class Level:
 
     def warm_start(self, guess: Solution | None) -> None:
         """Start from the film of a similar contact if its residual is much smaller."""
-        if guess is None or self.equations.contact_film is not None:
+        if guess is None or self.share.bounds_film:
             return
         self.pose_problem()
         here, before = self.state(), self._distance()
@@ -439,7 +346,7 @@ class Level:
     def set_relaxation(self, relaxation: Relaxation) -> None:
         """Change the settings of the smoother; frozen nodes stay frozen."""
         frozen = self.smoother.frozen
-        if self.equations.asperities is not None:
+        if self.share.is_steep:
             self.correction = relaxation.correction
         self.smoother = make_smoother(self.equations, relaxation)
         self.smoother.frozen[:] = frozen
@@ -463,6 +370,7 @@ class Level:
             before = self.film.partial.copy()
             front = FRONT_WIDTH, smoother.frozen, smoother.ends
             reynolds.keep_to_fronts(self.film, mirror, *front)
+            self.share.freeze(smoother.frozen)
             smoother.sweep(self.film, self.stencil, self.sources.reynolds, self.equations.flow)
             self._mark_cavities()
             moved = np.count_nonzero(self.film.partial != before)
@@ -482,12 +390,13 @@ class Level:
         flow = reynolds.residual(
             self.film, self.balance, self.sources.reynolds, self_film, self.residual
         )
-        return flow + self.missing_gap()
+        return flow + self.share.error(self)
 
     def missing_load(self) -> float:
         """Return w less the integral of P, inside and outside the domain [-]."""
         inside = self.equations.load.integral(self.pressure)
-        return self.sources.load - self.sources.outside - inside
+        missing = self.sources.load - self.sources.outside - inside
+        return missing + self.share.answered(self)
 
     def load_error(self) -> float:
         """Return the relative error of the load balance."""
@@ -503,6 +412,7 @@ class Level:
         self.restrict_film(coarse)
         self.restrict_reynolds(coarse)
         self.restrict_load(coarse)
+        coarse.share.follow_response(self.share, coarse)
         coarse._is_stale = False  # its film is the injected one, not that of K_c P_c
 
     def restrict_solution(self, coarse: "Level") -> None:
@@ -531,14 +441,9 @@ class Level:
         The fine film satisfies its equation exactly, so there is no residual to add. Density and
         conductance of the coarse grid follow from the injected film.
         """
-        g, film = coarse.sources.film, self.separation
-        if self.equations.contact_film is not None:  # where surfaces touch, H_c
-            film = self.film.h
-            coarse.keeps_contact, coarse.film.asperity[:] = True, 0.0
-            coarse.film.h[:] = film[::2, ::2]
-        coarse.separation[:] = film[::2, ::2]
-        coarse._share(-1.0)
-        coarse.kept = coarse.film.asperity.copy()
+        g = coarse.sources.film
+        coarse.separation[:] = self.share.gap(self)[::2, ::2]
+        coarse.share.receive(coarse)
         coarse.equations.deformation.deflect(coarse.pressure, g)
         np.subtract(coarse.separation, g, out=g)
         g -= coarse.rigid_approach
@@ -567,11 +472,8 @@ class Level:
         back and forth.
         """
         (before, approach), (part, limit) = coarse.restricted, coarse.correction
-        mirror, now = self.stencil.mirror, coarse.film.p
-        if coarse.equations.asperities is not None:  # the change of both together
-            now = coarse.pressure - coarse.kept
-        least = 0.0 if self.equations.asperities is None else -np.inf
-        transfer.correct(self.film.p, now, before, mirror, (part, limit, least))
+        mirror, now = self.stencil.mirror, coarse.share.changed(coarse)
+        transfer.correct(self.film.p, now, before, mirror, (part, limit, self.share.lowest))
         if self.stencil.conserves:
             transfer.correct_fronts(self.film.p, coarse.film.p, before, mirror, part, limit)
         self.rigid_approach += part * (coarse.rigid_approach - approach)

@@ -4,7 +4,6 @@ from dataclasses import asdict
 
 import numpy as np
 
-from tehl.contact.boundary_contact import TOUCHING_MARGIN
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState
 from tehl.operators.film import dry_pressure
@@ -24,10 +23,10 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     """Return the values of a converged grid by name.
 
     ``pressure_max``, ``film_mean`` over the Hertz contact, ``spike`` and its ``excess`` over Hertz
-    [-]; with asperities below the mesh ``load_share``, their part of the load, or that where
-    surfaces touch [-]; of a rough contact ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding
-    one ``traction_mid_film`` [-]; of a heated film the rises that `tehl.post.heat.Temperature` has
-    [K], and ``heat_`` with the names of the powers in `tehl.result.fields.HeatBalance` [W].
+    [-]; the parts of the load on solids (`tehl.solver.physics.share`) [-]; of a rough contact
+    ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one ``traction_mid_film`` [-]; of a
+    heated film the rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with the names of
+    the powers in `tehl.result.fields.HeatBalance` [W].
 
     Parameters
     ----------
@@ -37,14 +36,13 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
         Temperature and stress on that grid; None for an isothermal Newtonian film, and on coarse
         grids that are not heated: their traction would be that of a Newtonian film.
     """
-    pressure, least = level.film.p, level.equations.contact_film
+    pressure = level.film.p
     found = {
         "pressure_max": float(pressure.max()),
         "film_mean": contact_mean(level.grid.x, level.grid.y, level.film.h),
         **_spike(level),
     }
-    if least is not None or level.equations.asperities is not None:
-        found["load_share"] = shared_load(level)
+    found |= level.share.parts(level)
     if level.heights is not None:
         ripple_film, ripple_pressure = ripples(level.grid.x, level.grid.y, level.film.h, pressure)
         found |= {"ripple_film": ripple_film, "ripple_pressure": ripple_pressure}
@@ -66,18 +64,11 @@ def film_numbers(level: Level) -> dict[str, float]:
     return {"film_central": film.central, "film_minimum": film.minimum}
 
 
-def shared_load(level: Level) -> float:
-    """Return the load on asperities below the mesh, or where surfaces touch, over all [-].
-
-    They touch where the film exceeds the boundary film by at most `MARGIN`.
-    """
-    least = level.equations.contact_film
-    if least is None:
-        return level.asperity_load()
-    if not level.film.asperity.any():  # the oil carries all
-        return 0.0
-    meets = level.film.h <= (1.0 + TOUCHING_MARGIN) * least
-    return level.equations.load.integral(np.where(meets, level.pressure, 0.0)) / level.sources.load
+def solid_friction(level: Level) -> float:
+    """Return the friction of the solids while they slide, over the load [-]."""
+    rubbing = level.share.rubbing(level)
+    stress = 0.0 if rubbing is None else level.equations.load.integral(rubbing[0])
+    return stress / level.sources.load
 
 
 def _spike(level: Level) -> dict[str, float]:
@@ -107,8 +98,7 @@ def mid_film_traction(
     """
     stress = newtonian_sliding(level, scaled) if state is None else state.view("tau_x").T
     wet, scales = stress * zone_of(level.grid) * wet_part(level.film.p), scaled.scales
-    if level.film.asperity.any():
-        wet[level.film.h <= (1.0 + TOUCHING_MARGIN) * (level.equations.contact_film or 0.0)] = 0.0
+    wet[level.share.meets(level)] = 0.0
     area = scales.half_width_x * scales.half_width_y
     unit = stress_unit(scales) * area / (scales.load * load)
     return level.equations.load.integral(wet) * unit

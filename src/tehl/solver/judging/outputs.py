@@ -146,10 +146,11 @@ def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | Non
         return None
     separation, sigma = level.separation * scales.film_thickness, problem.asperity_rms
     area, spots = problem.asperities.spots(separation / sigma, sigma)
+    apart = ~level.share.meets(level)  # where surfaces touch the contact carries all
     return FilmAsperities(
-        pressure=grid.unfold(level.film.asperity * scales.hertz_pressure),
-        area=grid.unfold(area),
-        spots=grid.unfold(spots),
+        pressure=grid.unfold(apart * level.film.asperity * scales.hertz_pressure),
+        area=grid.unfold(apart * area),
+        spots=grid.unfold(apart * spots),
         separation=grid.unfold(separation),
         rms=np.array(sigma),
         balance=np.array(asperity_balance(level)),
@@ -168,15 +169,21 @@ def film_contact(level: Level, scaled: ScaledProblem) -> FilmContact | None:
     """
     if level.equations.contact_film is None:
         return None
-    pressure = level.grid.unfold(level.film.asperity * scaled.scales.hertz_pressure)
+    solids = level.film.asperity
+    if level.equations.asperities is not None:
+        solids = np.where(level.share.meets(level), solids, 0.0)
+    pressure = level.grid.unfold(solids * scaled.scales.hertz_pressure)
     return FilmContact(pressure=pressure, balance=np.array(contact_balance(level)))
 
 
 def contact_balance(level: Level) -> float:
     """Return the largest mass-balance error upstream of any section, of film and contact [-].
 
-    Relative to the oil that passes through |Y| < 1 at X = 0. Cavities do not count.
+    Relative to the oil that passes through |Y| < 1 at X = 0. Cavities do not count unless they
+    conserve oil.
     """
+    if level.stencil.conserves:
+        return oil_balance(level)
     grid, film = level.grid, level.film
     middle, inside = int(np.argmin(np.abs(grid.x))), np.abs(grid.y) < 1.0
     through = float(_line_weights(grid)[inside] @ (film.rho * film.h)[inside, middle])

@@ -25,8 +25,9 @@ from tehl.solver.judging.convergence import DivergedError
 from tehl.solver.physics.boundary_system import (
     TouchingOperators,
     TouchingSystem,
-    flux_difference,
+    transport,
 )
+from tehl.solver.physics.share import contact_of
 
 SUFFICIENT_DECREASE, SHORTEST_CONTACT_STEP = 0.05, 0.12
 """Least relative decrease of the residual for the whole step, and shortest part of a step, which is
@@ -113,13 +114,6 @@ class TouchingNewton(TouchingOperators):
         """Return the mean residual of both pressures plus the error of the load [-]."""
         return self.level.evaluate_residual() + abs(self.level.missing_load())
 
-    def lost_contact(self) -> float:
-        """Return the largest contact pressure where the surfaces are apart [-].
-
-        Nodes that open in the last step keep theirs, of either sign, until the next one.
-        """
-        return float(np.abs(np.where(self.level.touching, 0.0, self.level.film.asperity)).max())
-
     def _search(self, system: TouchingSystem, change: Array) -> float:
         """Take the step, or a part of it if the residual would rise above the last ones."""
         level, before = self.level, self.level.state()
@@ -155,7 +149,7 @@ def close_balance(level: Level) -> bool:
         by_pressure, _ = jacobian(
             film,
             level.stencil,
-            neighbours._replace(upstream=flux_difference(level)),
+            transport(level, neighbours),
             *level.conductance_slopes(),
         )
         nodes = np.nonzero(free.ravel())[0]
@@ -170,7 +164,9 @@ def close_balance(level: Level) -> bool:
             return False
         moved = np.maximum(moved, 0.0)
         film.asperity[:] = np.where(
-            level.touching, np.maximum(film.asperity - (moved - film.p), 0.0), film.asperity
+            contact_of(level.share).touching,
+            np.maximum(film.asperity - (moved - film.p), 0.0),
+            film.asperity,
         )
         film.p[:] = moved
         level.update_properties()
@@ -187,17 +183,16 @@ def choose_orders(level: Level, order: int = 2) -> None:
     order : int
         Order elsewhere, 1 or 2.
     """
-    second = level.film.second
-    if order == 1 or level.stencil.w2 == 0.0:
-        second[:] = 0
-        return
-    second[:] = ~with_neighbours(level.touching)
-    second[:, 0] = 0
+    contact = contact_of(level.share)
+    contact.lowered[:] = with_neighbours(contact.touching) if order > 1 else True
+    level.set_orders()
 
 
 def lower_orders(level: Level) -> None:
     """Lower the orders where surfaces have begun to touch: if they rise again, nodes may cycle."""
-    level.film.second[with_neighbours(level.touching)] = 0
+    contact = contact_of(level.share)
+    contact.lowered |= with_neighbours(contact.touching)
+    contact.lower(level.film)
 
 
 def with_neighbours(marked: BoolArray) -> BoolArray:

@@ -26,6 +26,7 @@ from tehl.operators.deformation import FftFlattening
 from tehl.operators.jacobian import Neighbours, jacobian, neighbour, rows
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import ROUNDS, VECTORS, Newton
+from tehl.solver.physics.share import contact_of
 
 LARGEST_STEPS, FAR_RESIDUAL = (5.0, 1.0), 0.1
 """Largest change of the pressure of oil per step, in Hertz pressures, and residual above which the
@@ -52,12 +53,6 @@ class TouchingOperators(Newton):
         self.flattening = FftFlattening(level.grid, level.equations.groups)
         self.close_influence = close_influence(level)
 
-    def transport(self, level: Level) -> Neighbours:
-        """Return the neighbours with the wedge of a level: by fluxes, or that of a time step."""
-        if not level.balance.conserves:
-            return self.neighbours
-        return self.neighbours._replace(upstream=flux_difference(level))
-
 
 class TouchingSystem:
     """The linear equations of one step, each scaled by the sum of its coefficients.
@@ -70,7 +65,7 @@ class TouchingSystem:
         self.operators, self.level, self.products = operators, operators.level, 0
         level, film = self.level, self.level.film
         self.shape, self.size = film.p.shape, film.p.size
-        self.touching: BoolArray = level.touching.ravel()
+        self.touching: BoolArray = contact_of(level.share).touching.ravel()
         rest = np.empty(self.shape)
         reynolds.operator(film, level.balance, rest)
         np.subtract(level.sources.reynolds, rest, out=rest)
@@ -79,7 +74,7 @@ class TouchingSystem:
         by_pressure, by_film = jacobian(
             film,
             level.stencil,
-            operators.transport(level),
+            transport(level, operators.neighbours),
             *level.conductance_slopes(),
         )
         by_film = csr_matrix(by_film @ rows((~self.touching).astype(float)))
@@ -291,11 +286,31 @@ def beside(matrix: csr_matrix, nx: int) -> csc_matrix:
     return csc_matrix((entries.data[near].astype(np.float32), places), shape=matrix.shape)
 
 
+def transport(level: Level, neighbours: Neighbours) -> Neighbours:
+    """Return ``neighbours`` with the wedge of a level: by fluxes, or that of a time step.
+
+    Parameters
+    ----------
+    level : Level
+        With the marks of partly filled nodes and of the orders of fluxes.
+    neighbours : Neighbours
+        Of its grid.
+    """
+    if not level.balance.conserves:
+        return neighbours
+    partial = level.film.partial > 0
+    before = np.zeros_like(partial)
+    before[:, 1:] = partial[:, :-1]
+    is_open = np.where(before & ~partial, 0.0, 1.0).ravel()
+    return neighbours._replace(upstream=flux_difference(level), open_west=is_open)
+
+
 def flux_difference(level: Level) -> csr_matrix:
     """Return the matrix of the wedge by fluxes through cell faces, of the orders of the level.
 
     A node passes on 3/2 m(i) - 1/2 m(i-1) of its mass m where its order is two, else m(i); into the
-    second node of a line flows their mean if the wedge is of second order.
+    second node of a line flows their mean if the wedge is of second order. A partly filled node
+    passes on what the last full one upstream does, or the oil that enters the line.
     """
     grid, second = level.grid, level.film.second.astype(float).ravel()
     every = np.ones(grid.shape, bool)
@@ -303,12 +318,22 @@ def flux_difference(level: Level) -> csr_matrix:
     passed = here + rows(0.5 * second) @ (here - west)
     if level.stencil.w2 > 0.0:
         first = np.zeros(grid.shape)
-        first[:, 0] = 1.0
+        first[:, 0] = ~(level.film.partial[:, :2] > 0).any(axis=1)
         east = neighbour(grid, every, 0, 1)
         passed = rows(1.0 - first.ravel()) @ passed + rows(0.5 * first.ravel()) @ (here + east)
+    passed = _last_full(level) @ passed
     inner = np.zeros(grid.shape)
     inner[(0 if grid.mirror else 1) : -1, 1:-1] = 1.0 / grid.dx
-    return csr_matrix(rows(inner.ravel()) @ (here - west) @ passed)
+    return csr_matrix(rows(inner.ravel()) @ (passed - west @ passed))
+
+
+def _last_full(level: Level) -> csr_matrix:
+    """Return the matrix that selects each full node, and for a partly filled one that upstream."""
+    partial, (ny, nx) = level.film.partial > 0, level.grid.shape
+    last = np.maximum.accumulate(np.where(partial, -1, np.arange(nx)), axis=1)
+    j, i = np.nonzero(last >= 0)
+    places = (j * nx + i, j * nx + last[j, i])
+    return csr_matrix((np.ones(j.size), places), shape=(ny * nx, ny * nx))
 
 
 def close_influence(level: Level) -> csr_matrix:

@@ -309,11 +309,11 @@ def damped(
 
 def _set_film(state: FilmState, level: Level) -> None:
     """Set pressure and film of a level, and the heat of its asperities."""
-    film, floor = level.film, level.equations.floor
-    if level.equations.asperities is None:
-        state.set_film(film.p, film.h, floor)
-        return
-    along = (film.channel / np.maximum(film.h, floor)) ** 3
-    across = along * film.across if film.across.size else along
-    state.set_film(np.maximum(film.p, 0.0), film.h, floor, (along, across))
-    state.rub(film.asperity)
+    film, floor, conducted = level.film, level.equations.floor, None
+    if film.channel.size:
+        along = (film.channel / np.maximum(film.h, floor)) ** 3
+        conducted = along, along * film.across if film.across.size else along
+    state.set_film(np.maximum(film.p, 0.0), film.h, floor, conducted)
+    rubbing = level.share.rubbing(level)
+    if rubbing is not None:
+        state.rub(*rubbing)

@@ -18,7 +18,7 @@ from tehl.result.solution import Cost
 from tehl.result.transient import Frames, History, Profiles
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.film_summary import film_summary
-from tehl.solver.judging.measures import shared_load
+from tehl.solver.judging.measures import solid_friction
 
 Heights = tuple[Array, Array]
 COLUMNS = tuple(one.name for one in fields(History))
@@ -79,7 +79,8 @@ class Record:
             "film_central": film.central,
             "film_minimum": film.minimum,
             "pressure_max": float(carried(level).max()),
-            "asperity_load": shared_load(level),
+            "asperity_load": sum(level.share.parts(level).values()),
+            "solid_friction": solid_friction(level),
             "rigid_approach": level.rigid_approach,
         }
         self.rows.append(tuple(float(row[name]) for name in COLUMNS))

@@ -10,8 +10,9 @@ are one derivative of m = rho H along the mean motion, second-order backward:
 (docs/theory/numerics-transient.md; numerics-thermal.md on heated ones).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -21,11 +22,10 @@ from tehl.contact.transient import Transient
 from tehl.operators.reynolds import steady_flux, steady_wedge, step_stencil, upstream
 from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.film_solver import FilmSolver
-from tehl.solver.cycle.iteration import COARSE_TOUCHING, coarse_grid
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import Relaxation
 from tehl.solver.judging.convergence import LEAST_KELVIN, RUNAWAY
-from tehl.solver.physics.boundary_contact import TouchingNewton
+from tehl.solver.physics.boundary_cycle import TouchingCycle
 from tehl.solver.transient.predictor import Predictor
 
 LARGEST_STEP_LOAD_ERROR = 1e-4
@@ -84,9 +84,13 @@ class Stepper:
             one.equations = replace(one.equations, stencil=stencil)
         solver.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
         solver.coupling.begin_transient(solver.levels, self.time_step)
-        self.newton: TouchingNewton | None = None
+        self.method: Callable[[], None] = partial(
+            cycle, solver.levels, solver.hierarchy.coarsest.step, SHAPE
+        )
+        self.touching: TouchingCycle | None = None
         if level.equations.contact_film is not None:
-            self.newton = TouchingNewton(level, coarse_grid(solver.levels, COARSE_TOUCHING))
+            self.touching = TouchingCycle(solver.levels, self.method)
+            self.method = self.touching.step
         step = (self.time_step, level.grid.dx, transient.stride)
         excess = solver.coupling.excess()
         self.squeeze = Squeeze(self.steady, excess, step, solver.options.order)
@@ -117,10 +121,8 @@ class Stepper:
                 level.set_state(*start)
                 level.update()
                 self.solver.coupling.revert(self.solver.levels)
-            elif self.newton is None:
+            elif self.touching is None:
                 level.set_pressure(self.predictor.onward())
-            else:
-                self.newton.refresh()  # as a resumed run, which has no earlier residuals
             level.pose_step(history + self.squeeze.onward(), heights, load)
             try:
                 end = self._solve(self.settings[number].name)
@@ -172,13 +174,12 @@ class Stepper:
         """Perform cycles until the step has converged."""
         level, change = self.solver.finest, np.inf
         # slower relaxations get more cycles, and nodes that begin and cease to touch more steps
-        times = 1 + self.setting if self.newton is None else MORE_STEPS
+        times = 1 + self.setting
+        if self.touching is not None:
+            self.touching.begin()
         for number in range(1, times * self.transient.max_cycles + 1):
             before = level.pressure.copy()
-            if self.newton is None:
-                cycle(self.solver.levels, self.solver.hierarchy.coarsest.step, SHAPE)
-            else:
-                self.newton.step()
+            self.method()
             level.update()
             warmer, rise = self.solver.coupling.update(self.solver.levels)
             self._follow_density()
@@ -190,9 +191,8 @@ class Stepper:
                 raise StepError("diverged", change)
             done = change <= self.transient.tolerance and abs(error) <= LARGEST_STEP_LOAD_ERROR
             done = done and warmer <= max(LARGEST_STEP_KELVIN_CHANGE * rise, LEAST_KELVIN)
-            if self.newton is not None:  # a step that is cut short changes little
-                done = done and self.newton.residual() <= LARGEST_REST * self.transient.tolerance
-                done = done and self.newton.lost_contact() <= self.transient.tolerance
+            if self.touching is not None:  # single nodes that begin to touch change little
+                done = done and level.evaluate_residual() <= LARGEST_REST * self.transient.tolerance
             if number >= LEAST_CYCLES and done:
                 return StepEnd(cycles=number, change=change, load_error=error, smoother=name)
         raise StepError("stalled", change)

@@ -1,0 +1,141 @@
+"""Contact through a boundary film together with the other physics: limits that must hold."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from benchmarks.pairs import FEATURES, WAVE, contact, outcome
+from scipy.integrate import quad
+
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.api.solvers import solve, solve_transient
+from tehl.contact.options import Options
+from tehl.operators.energy import FilmState
+from tehl.post.boundary_contact import touching_nodes
+
+TIGHT = Options(points=65, accuracy="tight")
+BESIDE_CONTACT = ("heat", "thinning", "starved", "conserving", "asperities")
+
+
+@cache
+def solved(*features: str, **changes: object) -> Result:
+    return solve(changed(contact(*features), **changes), TIGHT)
+
+
+def changed(problem: ContactProblem, **tables: object) -> ContactProblem:
+    given = problem.model_dump(exclude_none=True)
+    for name, table in tables.items():
+        given[name] = given.get(name, {}) | table
+    return ContactProblem.model_validate(given)
+
+
+@pytest.mark.parametrize("other", BESIDE_CONTACT)
+def test_a_boundary_film_below_that_of_the_oil_leaves_it_as_it_is(other: str):
+    alone = solved(other)
+    thin = changed(contact(other, "boundary"), contact_film={"thickness": 1e-10})
+    found = solve(thin, TIGHT)
+    assert found.touching.share == 0.0
+    assert found.scaled.film == pytest.approx(alone.scaled.film, rel=2e-3, abs=1e-5)
+    assert found.scaled.film.min() == pytest.approx(alone.scaled.film.min(), rel=1e-4)
+    if other == "heat":
+        rise = alone.temperature.film_rise_max
+        assert found.temperature.film_rise_max == pytest.approx(rise, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("other", "tables"),
+    [
+        ("thinning", {"lubricant": {"shear": {"law": "eyring", "stress": 1e12}}}),
+        ("conserving", {}),
+        ("starved", {"supply": {"layer": 1e-4}}),
+        ("asperities", {"asperities": {"rms": 2e-9, "summit_radius": 1e-3}}),
+    ],
+)
+def test_grooves_that_touch_are_those_without_the_other_physics_in_its_limit(other, tables):
+    """No thinning, cavities behind the contact, oil in plenty, asperities that are very low."""
+    lubricant = {"lubricant": {"shear": {"law": "newtonian"}}} if other != "thinning" else {}
+    alone = solve(grooves("boundary"), TIGHT)
+    found = solve(changed(grooves("boundary", other), **(lubricant | tables)), TIGHT)
+    assert 0.3 < alone.touching.share < 0.9
+    assert found.touching.share == pytest.approx(alone.touching.share, abs=5e-3)
+    assert found.film.central == pytest.approx(alone.film.central, rel=2e-3)
+
+
+def grooves(*features: str, thickness: float = 1.2e-7) -> ContactProblem:
+    rough = WAVE | {"amplitude": "0.3 um", "phase": "180 deg"}
+    tables = {"surface_1": {"roughness": rough}, "contact_film": {"thickness": thickness}}
+    return changed(contact(*features), **tables)
+
+
+def test_the_heat_of_a_contact_is_its_friction(monkeypatch):
+    """Flux into both surfaces = friction coefficient, load where they touch, sliding speed."""
+    states, rub = [], FilmState.rub
+
+    def note(self: FilmState, *given: np.ndarray) -> None:
+        rub(self, *given)
+        states.append(self)
+
+    monkeypatch.setattr(FilmState, "rub", note)
+    found = solve(grooves("boundary", "heat"), TIGHT)
+    state, scales = states[-1], found.scales
+    flux = state.film.flux_unit * state.grid.unfold(sum(state.solids.rubbing).T)
+    cell = state.grid.dx * state.grid.dy * scales.half_width_x * scales.half_width_y
+    assert found.touching.power_boundary > 0.05
+    assert flux.sum() * cell == pytest.approx(found.touching.power_boundary, rel=1e-8)
+    meets, heated = touching_nodes(found), state.grid.unfold(state.view("shear").T.copy())
+    assert meets.sum() > 50
+    assert (heated[meets] == 0.0).all()  # the surfaces rub there in place of the oil
+    assert (heated[~meets] > 0.0).any()
+
+
+def test_a_nearly_dry_contact_is_that_of_hertz_and_a_moving_source():
+    """Both surfaces as warm as line sources of friction under the Hertz pressure make them."""
+    solid = {"young_modulus": 206e9, "poisson_ratio": 0.3, "density": 6000.0}
+    solid |= {"heat_capacity": 450.0, "conductivity": 2.2}
+    found = solve(
+        changed(
+            contact("heat", "boundary"),
+            contact={"load": 20.0, "entrainment_speed": 0.5, "slide_roll_ratio": 0.2},
+            surface_1={"material": solid},
+            surface_2={"material": solid},
+            contact_film={"thickness": 5e-7, "friction": 0.1},
+        ),
+        Options(points=65),
+    )
+    shared, scales, motion = found.touching, found.scales, found.problem.motion
+    assert 0.93 < shared.share < 0.96
+    assert shared.pressure_max == pytest.approx(scales.hertz_pressure, rel=0.02)
+    speeds = np.array([motion.speed_1, motion.speed_2])
+    product = solid["conductivity"] * solid["density"] * solid["heat_capacity"]
+    part = np.sqrt(speeds) / np.sqrt(speeds).sum()
+    integral = max(
+        quad(lambda s: np.sqrt(1.0 - s * s), -1.0, x, weight="alg", wvar=(0.0, -0.5))[0]
+        for x in np.linspace(-0.9, 1.0, 39)
+    )
+    flux = 0.1 * shared.share * scales.hertz_pressure * abs(speeds[0] - speeds[1])
+    rise = part * flux * np.sqrt(scales.half_width_x / (np.pi * product * speeds)) * integral
+    walls = found.heat.temperature[[0, -1]].max(axis=(1, 2)) - scales.temperature
+    assert walls == pytest.approx(rise, rel=0.03)
+
+
+def test_friction_in_time_is_that_of_film_and_solids():
+    tables = {"roughness": WAVE | {"amplitude": "0.3 um", "phase": "180 deg"}}
+    problem = changed(
+        contact("heat", "boundary"),
+        surface_1=tables,
+        contact={"slide_roll_ratio": -0.9},
+        contact_film={"thickness": 1.2e-7},
+        transient={"duration": 2e-4, "start": "standing", "frames": 0},
+    )
+    run = solve_transient(problem, Options(points=65))
+    history, shared = run.history, run.start.touching
+    assert run.status.converged
+    assert history.asperity_load == pytest.approx(shared.share, rel=1e-3)
+    assert history.solid_friction[0] == pytest.approx(shared.friction_boundary, rel=1e-9)
+    assert np.ptp(history.temperature_rise) < 0.01 * history.temperature_rise[0]
+
+
+@pytest.mark.parametrize("other", [name for name in FEATURES if name != "boundary"])
+def test_each_physics_works_with_a_boundary_film(other: str):
+    assert outcome((other, "boundary"), 65) == "works"
