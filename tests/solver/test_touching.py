@@ -23,6 +23,7 @@ from tehl.report.page import report_text
 from tehl.result.transient import Frames
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.relaxation import BESIDE_NEWTON
+from tehl.solver.cycle.start import from_dry_pressure
 from tehl.solver.physics.boundary_contact import TouchingNewton
 from tehl.solver.physics.boundary_system import TouchingSystem
 from tehl.solver.steady import finest_grid
@@ -116,7 +117,7 @@ def started(found: Result, options: Options, oil: float) -> TouchingNewton:
     level.heights = heights / scaled.scales.film_thickness
     if grid.mirror:
         level.heights = level.heights[grid.ny // 2 :]
-    level.start_from_hertz(0.03)
+    from_dry_pressure(level, 0.03)
     level.apply_heights(1.0)
     pressure = level.film.p.copy()
     level.set_state(oil * pressure, level.rigid_approach, (1.0 - oil) * pressure)

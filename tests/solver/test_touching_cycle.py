@@ -16,6 +16,7 @@ from tehl.solver import steady
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import TOUCHING
 from tehl.solver.cycle.relaxation import ROUGH
+from tehl.solver.cycle.start import from_dry_pressure
 from tehl.solver.judging.convergence import DivergedError
 from tehl.solver.physics.boundary_cycle import TouchingCycle
 from tests.reference import moes_contact
@@ -32,7 +33,7 @@ def test_the_contact_pressure_is_that_of_a_complementarity_problem(mirror: bool)
     grid = Grid(nx=33, ny=33, domain=SQUARE, mirror=mirror)
     options = Options(points=33, edges="zero", domain=SQUARE, deformation="fft")
     level = Hierarchy.on(grid, ScaledProblem.of(problem), options, ROUGH).finest
-    level.start_from_hertz(0.1)
+    from_dry_pressure(level, 0.1)
     rough = 0.1 * np.cos(4.0 * np.pi * grid.x) * np.cos(2.0 * np.pi * grid.y)[:, None]
     level.sources.film -= rough
     oil = 0.6 * level.film.p
@@ -70,7 +71,7 @@ def test_the_response_keeps_the_contact_closed(mirror: bool):
     grid = Grid(nx=65, ny=65, domain=SQUARE, mirror=mirror)
     options = Options(points=65, edges="zero", domain=SQUARE, deformation="fft")
     level = Hierarchy.on(grid, ScaledProblem.of(problem), options, ROUGH).finest
-    level.start_from_hertz(0.1)
+    from_dry_pressure(level, 0.1)
     level.set_state(0.4 * level.film.p, level.rigid_approach - 0.8)
     cycle = TouchingCycle([level], lambda: None)
     for _ in range(4):
@@ -96,7 +97,7 @@ def test_a_film_that_is_not_finite_has_diverged():
     problem = through_film(moes_contact(100.0, 5.0), 0.05)
     grid = Grid(nx=33, ny=33, domain=SQUARE, mirror=False)
     level = Hierarchy.on(grid, ScaledProblem.of(problem), Options(points=33), ROUGH).finest
-    level.start_from_hertz(0.1)
+    from_dry_pressure(level, 0.1)
     level.sources.film[16, 16] = -np.inf
     with pytest.raises(DivergedError):
         TouchingCycle([level], lambda: None)._settle(12)

@@ -15,6 +15,7 @@ from tehl.base.typing import Array
 from tehl.operators.heights import Heights
 from tehl.operators.transfer import refine
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.start import from_dry_pressure
 from tehl.solver.judging.convergence import DivergedError
 
 SMOOTH_CYCLES = 2
@@ -136,7 +137,7 @@ class Roughness:
         self.first = number
         self.first_comparable = max(self.first_comparable, number)
         if self.smooth is None:
-            self.levels[number].start_from_hertz(expected_film)
+            from_dry_pressure(self.levels[number], expected_film)
             return False
         known, pressure, approach, asperity = self.smooth
         for level in self.levels[known + 1 : number + 1]:

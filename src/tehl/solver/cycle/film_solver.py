@@ -14,9 +14,11 @@ from tehl.result.solution import Solution
 from tehl.solver.cycle.continuation import RAISED_RESIDUAL, TouchingError
 from tehl.solver.cycle.fmg import full_multigrid
 from tehl.solver.cycle.hierarchy import Hierarchy
-from tehl.solver.cycle.iteration import LARGEST_OIL_ERROR, MOST_CYCLES, GridIteration
+from tehl.solver.cycle.iteration import MOST_CYCLES, GridIteration
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.start import from_coarser, from_dry_pressure, from_guess
+from tehl.solver.judging.balance import LARGEST_OIL_ERROR
 from tehl.solver.judging.convergence import (
     LARGEST_CYCLE_CHANGE,
     DivergedError,
@@ -124,16 +126,18 @@ class FilmSolver(GridIteration):
 
     def _has_converged(self) -> bool:
         """Return whether the last grid converged, and its oil flux is constant."""
-        return self.is_settled and converged(self.traces[-1], self._coarser_trace(), self.options)
+        return self.balance.is_settled and converged(
+            self.traces[-1], self._coarser_trace(), self.options
+        )
 
     def errors(self) -> ErrorEstimate | None:
         """Return estimated errors of the film on the last grid; None before its first cycle."""
         level = self.levels[len(self.traces) - 1]
         found = estimated_errors(level, self.traces, self.roughness, self.hierarchy)
-        if found is None or self.oil_error <= LARGEST_OIL_ERROR:
+        if found is None or self.balance.oil_error <= LARGEST_OIL_ERROR:
             return found
         # each section should pass the same oil, and the film is in proportion to what passes
-        return replace(found, supply=found.supply + self.oil_error)
+        return replace(found, supply=found.supply + self.balance.oil_error)
 
     def reached_before(self, *, last: bool = False) -> tuple[tuple[int, int], float] | None:
         """Return nodes and error bar of the finest grid that converged before the last one.
@@ -201,7 +205,7 @@ class FilmSolver(GridIteration):
     def _solve_coarsest(self) -> None:
         """Solve on the coarsest grid by Newton's method, from the Hertz pressure."""
         coarsest = self.levels[0]
-        coarsest.start_from_hertz(self.hierarchy.expected_film)
+        from_dry_pressure(coarsest, self.hierarchy.expected_film)
         if coarsest.equations.contact_film is None or not self.strategy.newton:
             for _ in range(FIRST_STEPS):
                 self.hierarchy.coarsest.step()
@@ -221,11 +225,11 @@ class FilmSolver(GridIteration):
         number, film = self.levels.index(fine), self.hierarchy.expected_film
         self.from_hertz = False
         if self.accepted:
-            fine.interpolate_from(coarse)
+            from_coarser(coarse, fine)
         elif number > self.roughness.first:
             self.from_hertz = not self.roughness.restart(number, film)
         else:
-            fine.start_from_hertz(film)
+            from_dry_pressure(fine, film)
             self.from_hertz = True
 
     def _approximate(self, levels: Sequence[Level]) -> bool:
@@ -270,7 +274,7 @@ class FilmSolver(GridIteration):
         Not if the next coarser grid has no positive film with all heights: raising them takes ten
         times as long as all before, and fails alike.
         """
-        self.finest.warm_start(self.guess)
+        from_guess(self.finest, self.guess)
         last, roughness = len(self.levels) - 1, self.roughness
         try:
             self._iterate(self.levels)

@@ -19,6 +19,7 @@ from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import Relaxation
+from tehl.solver.cycle.start import from_coarser, from_dry_pressure
 from tehl.solver.judging.convergence import RUNAWAY
 
 UNRESOLVED = 0.5
@@ -201,8 +202,8 @@ class Hierarchy:
                 start = number
         if start < 0:
             start = 0
-            self.levels[0].start_from_hertz(self.expected_film)
+            from_dry_pressure(self.levels[0], self.expected_film)
         for coarse, fine in pairwise(self.levels[start:]):
-            fine.interpolate_from(coarse)
+            from_coarser(coarse, fine)
         self.finest.pose_problem()
         self.finest.update()

@@ -8,7 +8,6 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
-from tehl.kernels.reynolds import STEADILY
 from tehl.operators.heights import Heights
 from tehl.result.solution import CycleReport
 from tehl.solver.cycle.anderson import Anderson
@@ -23,6 +22,7 @@ from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import Newton
+from tehl.solver.judging.balance import Balance
 from tehl.solver.judging.convergence import (
     LARGEST_CYCLE_CHANGE,
     LARGEST_ROUGH_CHANGE,
@@ -37,7 +37,6 @@ from tehl.solver.judging.convergence import (
 from tehl.solver.judging.extrapolation import outputs_of
 from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.measures import film_numbers, measured
-from tehl.solver.judging.outputs import asperity_balance, contact_balance, oil_balance
 from tehl.solver.monitor import Monitor
 from tehl.solver.physics.boundary_contact import (
     BALANCED_OVER_TOLERANCE,
@@ -60,22 +59,9 @@ HERTZ_CYCLES = 2
 """Cycles after which a grid that started from the Hertz pressure has a film."""
 MOST_FRONT_CYCLES = 24
 """The same where a meniscus must be found: on coarse grids that costs little."""
-LARGEST_OIL_ERROR, COARSE_OIL_ERROR = 0.005, 0.003
-"""Relative change of the oil flux through the contact that is accepted on the finest grid, and on
-coarser ones, where it costs less."""
-LONG_FRONT_CYCLES, LARGEST_OSCILLATION, OSCILLATES = 12, 0.7, 4.0
-"""Cycles after which single nodes of a meniscus may oscillate: then the oil flux may change by this
-part of the error to reach, which its bar contains; and factor on the iteration error of the film
-that is always accepted, as it follows these nodes."""
-BALANCED_UP_TO_X = 0.5
-"""X up to which sections must pass the same oil: the film upstream decides how much, and at the
-pressure spike a flux of a few percent more or less is local."""
-LARGEST_MASS_ERROR, ROUNDING_RESIDUAL = 1e-10, 1e-13
-"""Mass-balance error between surfaces that may touch, over what passes, which takes a few more
-Newton steps, and in tight solves with asperities, over what enters, which takes ten more cycles;
-and residual from which Newton steps end if they gain no more."""
-CYCLE_MASS_ERROR = 0.01
-"""The same where surfaces touch and cycles end at the error of the grid."""
+OSCILLATES = 4.0
+"""Factor on the iteration error of the film that is always accepted where single nodes of a
+meniscus oscillate, as it follows these nodes."""
 STEADY = 1e-3
 """Mean change of the pressure that ends the cycles on a grid where surfaces may touch and that has
 no comparable coarser grid."""
@@ -130,10 +116,7 @@ class GridIteration:
         self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
         self.traces: list[GridTrace] = []  # of each grid, coarsest first
         self.from_hertz = False  # the present grid started from the Hertz pressure
-        self.is_settled = True  # the meniscus is stationary, and the oil flux is constant
-        self.oil_error = 0.0  # relative change of that flux between sections
-        self.mass_error = np.inf  # mass-balance error between surfaces that may touch
-        self.is_balanced = True  # a tight solve with asperities neither makes nor loses oil
+        self.balance = Balance(hierarchy.options, exactly=strategy.newton)
 
     @property
     def finest(self) -> Level:
@@ -221,14 +204,14 @@ class GridIteration:
         coarser = self._coarser_trace()
         if finest and self.goal.is_over and len(trace.reports) >= SLOW_CYCLES:
             return True
-        if not self.is_settled:
+        if not self.balance.is_settled:
             return stalled(trace, self.strategy.patience)
         if not finest:
             done = film_converged(trace, coarser)
             if self.coupling.state is None or len(trace.reports) < MOST_CYCLES:
                 return done and temperature_converged(trace, coarser)
             return (done and temperature_converged(trace, coarser)) or stalled(trace, 2)
-        done = self.is_balanced and must_stop(trace, coarser, self.options)
+        done = self.balance.is_kept and must_stop(trace, coarser, self.options)
         return done or stalled(trace, self.strategy.patience)
 
     def _start_heat(self, levels: Sequence[Level]) -> int:
@@ -345,33 +328,22 @@ class GridIteration:
     ) -> CycleReport:
         """Perform one cycle or Newton step on the last of ``levels``, update heat, and report."""
         fine = levels[-1]
-        fine.keeps_orders = number > FREE_ORDERS
+        fine.cavity.keeps_orders = number > FREE_ORDERS
         before = fine.pressure.copy()
-        if fine.stencil.conserves == STEADILY and number == 1:
-            fine.relax_fronts()
+        if number == 1:
+            fine.cavity.settle(fine)
         step()
-        if fine.stencil.conserves == STEADILY:
-            rests = fine.relax_fronts()
-            fine.update()
-            self.oil_error = oil_balance(fine, until=BALANCED_UP_TO_X)
-            largest = LARGEST_OIL_ERROR if fine is self.finest else COARSE_OIL_ERROR
-            may_oscillate = self.goal.is_open and number >= LONG_FRONT_CYCLES
-            self.is_settled = (rests and self.oil_error <= largest) or (
-                may_oscillate and self.oil_error <= LARGEST_OSCILLATION * self.options.target
-            )
+        rests = fine.cavity.settle(fine)
         fine.update()
         heating = self.coupling.update(levels)
         report = self._report(fine, before, number, heating)
-        if fine.balance.conserves != fine.stencil.conserves and fine is self.finest:
-            before_it, self.mass_error = self.mass_error, contact_balance(fine)
-            rounded = report.residual <= ROUNDING_RESIDUAL and self.mass_error > 0.5 * before_it
-            exactly = self.strategy.newton or self.options.accuracy == "tight"
-            largest = LARGEST_MASS_ERROR if exactly else CYCLE_MASS_ERROR
-            self.is_settled = self.mass_error <= largest or rounded
-        if fine.equations.asperities is not None and self.options.accuracy == "tight":
-            self.is_balanced = (
-                fine is not self.finest or asperity_balance(fine) <= LARGEST_MASS_ERROR
-            )
+        self.balance.note(
+            fine,
+            report,
+            finest=fine is self.finest,
+            rests=rests,
+            may_oscillate=self.goal.is_open,
+        )
         self.monitor.cycle(report)
         return report
 

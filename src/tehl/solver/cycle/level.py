@@ -16,25 +16,14 @@ from tehl.base.typing import Array, FlagArray
 from tehl.estimate.grid import Grid
 from tehl.kernels import properties, reynolds, transfer
 from tehl.operators.far_field import FarField
-from tehl.operators.transfer import refine
-from tehl.result.solution import Solution
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Relaxation, make_smoother
 from tehl.solver.judging.film_summary import central_value
+from tehl.solver.physics.cavity import cavity_of
 from tehl.solver.physics.share import FILM_PER_PRESSURE, share_of
 
 PRESSURE_STEP = 1e-6
 """Step of the derivative of the conductance by pressure; its error is of this relative size."""
-FROZEN_BELOW = 1e-3
-"""Pressure below which a coarse node beside a cavity keeps its pressure: where the film ends is
-decided on the finest grid alone."""
-LEAST_GUESS_GAIN = 0.1
-"""Residual of a guess over that of the interpolated coarser film, below which the guess is taken.
-Full multigrid starts near the solution, which few neighbours of a study beat."""
-FRONT_SWEEPS, FRONT_WIDTH, FRONT_RESTS = (4, 16), 6, 0.03
-"""Least and most sweeps where a starved film begins, nodes to both sides, and nodes that fill or
-empty over the number of lines below which the meniscus is stationary. Least CPU time of 20
-contacts (M 20 to 200, r 0.2 to 4, 257 nodes) that all converge."""
 APPROACH_WEIGHT = 10.0
 """Weight of the rigid approach among the pressures in the vector of unknowns."""
 
@@ -53,14 +42,12 @@ class Level:
         p, h, eps, rho, drho, f, g = (np.zeros(shape) for _ in range(7))
         self.is_finest = True  # of those in use: its equations are those of the problem
         self.film = properties.Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
-        if equations.layer is not None:
-            partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
-            self.film = self.film._replace(partial=partial, second=second, layer=equations.layer)
+        self.cavity = cavity_of(equations)
+        self.film = self.cavity.extend(self.film)
         self.share = share_of(equations)
         self.film = self.share.extend(self.film)
         # of the mean planes: the film itself where no solids carry load
         self.separation = np.zeros(shape) if self.film.asperity.size else h
-        self.keeps_orders = False  # the nodes of second order stay as they are
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
         self.residual = np.zeros(shape)
@@ -184,43 +171,11 @@ class Level:
             self.sources.outside = self.far_field.load(h, self.equations.gap)
         self.share.follow(self, FILM_PER_PRESSURE)
         self._is_stale = False
-        if self.stencil.conserves == reynolds.STEADILY and self.is_finest:
-            self._mark_cavities()
+        self.cavity.mark(self)
 
-    def _mark_cavities(self) -> None:
-        """Mark partly filled nodes, and those that pass on oil with second order."""
-        film, stencil = self.film, self.stencil
-        scratch = np.empty((1, film.p.shape[1]))
-        reynolds.mark_partial(film, stencil, self.sources.reynolds, scratch, self.smoother.ends)
-        if not self.keeps_orders:
-            self.set_orders()
-
-    def set_orders(self) -> None:
-        """Set the orders with which nodes pass on oil."""
-        reynolds.mark_second_order(self.film, self.stencil)
-        self.share.lower(self.film)
-
-    def held_oil(self) -> Array:
-        """Return the oil at each node after a time step, ``grid.shape`` [-].
-
-        A node without pressure is not full if less oil has come than a full one holds.
-        """
-        film, rest = self.film, np.empty(self.grid.shape)
-        held: Array = film.rho * film.h
-        if self.stencil.conserves:
-            reynolds.operator(film, self.stencil, rest)
-            np.subtract(self.sources.reynolds, rest, out=rest)
-            missing = np.maximum(rest, 0.0) / self.stencil.w0
-            missing[[0, -1] if not self.grid.mirror else [-1]] = 0.0
-            missing[:, [0, -1]] = 0.0
-            held = np.where(film.p > 0.0, held, np.maximum(held - missing, 0.0))
-        return held
-
-    def oil_flow(self) -> tuple[Array, Array]:
-        """Return the oil at each node, rho H or less, and the flux to the east, ``grid.shape``."""
-        held, passed = np.empty(self.grid.shape), np.empty(self.grid.shape)
-        reynolds.oil_flow(self.film, self.stencil, held, passed)
-        return held, passed
+    def touch(self) -> None:
+        """Mark the film as stale."""
+        self._is_stale = True
 
     def update_properties(self) -> None:
         """Evaluate conductance and density for the present pressure and film."""
@@ -312,35 +267,6 @@ class Level:
         if self.sources.history is not None:
             self.sources.reynolds -= self.sources.history
 
-    def start_from_hertz(self, expected_film: float) -> None:
-        """Start from the Hertz pressure, or of dry asperities, at the expected central film."""
-        self.pose_problem()
-        self.share.start(self, expected_film)
-
-    def interpolate_from(self, coarse: "Level") -> None:
-        """Start from the solution of the next coarser grid, by cubic interpolation."""
-        oil, asperity = refine(coarse.film.p, self.grid), coarse.film.asperity
-        asperity = refine(asperity, self.grid) if asperity.size else asperity
-        self.set_state(oil, coarse.rigid_approach, asperity)
-
-    def warm_start(self, guess: Solution | None) -> None:
-        """Start from the film of a similar contact if its residual is much smaller."""
-        if guess is None or self.share.bounds_film:
-            return
-        self.pose_problem()
-        here, before = self.state(), self._distance()
-        self.set_state(_values_on(self.grid, guess, guess.scaled.pressure), guess.rigid_approach)
-        if guess.asperities is not None:
-            pressure = guess.asperities.pressure / guess.scales.hertz_pressure
-            self.film.asperity[:] = _values_on(self.grid, guess, pressure)
-        if not self._distance() < LEAST_GUESS_GAIN * before:
-            self.set_state(*here)
-
-    def _distance(self) -> float:
-        """Return residual plus load error of the present state [-]."""
-        self.update()
-        return self.evaluate_residual() + abs(self.load_error())
-
     # relaxation and residual
 
     def set_relaxation(self, relaxation: Relaxation) -> None:
@@ -357,29 +283,6 @@ class Level:
             self.update()
             self.smoother.sweep(self.film, self.balance, self.sources.reynolds, self.equations.flow)
             self._is_stale = True
-
-    def relax_fronts(self) -> bool:
-        """Relax where films begin until these places rest; return whether they do.
-
-        A cycle moves them by some nodes only: coarse grids keep them. The pressure there hardly
-        changes the film, which is not evaluated between the sweeps.
-        """
-        (least, most), smoother, mirror = FRONT_SWEEPS, self.smoother, self.stencil.mirror
-        self.update()
-        for number in range(most):
-            before = self.film.partial.copy()
-            front = FRONT_WIDTH, smoother.frozen, smoother.ends
-            reynolds.keep_to_fronts(self.film, mirror, *front)
-            self.share.freeze(smoother.frozen)
-            smoother.sweep(self.film, self.stencil, self.sources.reynolds, self.equations.flow)
-            self._mark_cavities()
-            moved = np.count_nonzero(self.film.partial != before)
-            rests = bool(moved <= FRONT_RESTS * self.grid.shape[0])
-            if rests and number >= least:
-                break
-        smoother.frozen[:], smoother.ends[:] = 0, self.grid.nx - 1
-        self._is_stale = True
-        return rests
 
     def evaluate_residual(self) -> float:
         """Evaluate f - L(P), zero where cavitated; return its mean over the local diagonal.
@@ -422,13 +325,11 @@ class Level:
         in every cycle (Venner and Lubrecht 2000, chapter 6, restrict there by injection).
         """
         mirror, frozen = self.stencil.mirror, coarse.smoother.frozen
-        limit = 0.0 if self.stencil.conserves else FROZEN_BELOW
+        limit = self.cavity.frozen_below
         transfer.restrict_pressure(self.film.p, mirror, coarse.film.p)
         transfer.freeze(self.film.p, self.smoother.frozen, coarse.film.p, mirror, limit, frozen)
         coarse.is_finest, coarse.sources.outside = False, 0.0
-        if self.stencil.conserves == reynolds.STEADILY:  # the finest grid decides where films begin
-            coarse.film.partial[:] = self.film.partial[::2, ::2]
-            reynolds.mark_second_order(coarse.film, coarse.stencil)
+        self.cavity.inject(self, coarse)
         # I P and H00: `correct_from` interpolates the change since
         before, _ = coarse.restricted
         before[:] = coarse.film.p
@@ -454,8 +355,7 @@ class Level:
         The residual is zero where the fine grid is cavitated: complementarity holds there.
         """
         mirror = self.stencil.mirror
-        if self.stencil.conserves:
-            transfer.keep_residual(self.residual, coarse.film.p, mirror)
+        self.cavity.restrict(self, coarse)
         transfer.restrict_residual(self.residual, mirror, coarse.residual)
         reynolds.operator(coarse.film, coarse.stencil, coarse.sources.reynolds)
         coarse.sources.reynolds += coarse.residual
@@ -474,22 +374,6 @@ class Level:
         (before, approach), (part, limit) = coarse.restricted, coarse.correction
         mirror, now = self.stencil.mirror, coarse.share.changed(coarse)
         transfer.correct(self.film.p, now, before, mirror, (part, limit, self.share.lowest))
-        if self.stencil.conserves:
-            transfer.correct_fronts(self.film.p, coarse.film.p, before, mirror, part, limit)
+        self.cavity.correct(self, coarse, before, (part, limit))
         self.rigid_approach += part * (coarse.rigid_approach - approach)
         self._is_stale = True
-
-
-def _values_on(grid: Grid, guess: Solution, pressure: Array) -> Array:
-    """Return a pressure of a result on ``grid``, bilinear between its nodes [-]."""
-    x, y = guess.scaled.x, guess.scaled.y
-    if not np.array_equal(grid.x, x):
-        pressure = np.array([np.interp(grid.x, x, row, left=0.0, right=0.0) for row in pressure])
-    if not np.array_equal(grid.y, y):
-        columns = [np.interp(grid.y, y, column, left=0.0, right=0.0) for column in pressure.T]
-        pressure = np.array(columns).T
-    found = np.maximum(pressure, 0.0)
-    found[-1] = found[:, 0] = found[:, -1] = 0.0
-    if not grid.mirror:
-        found[0] = 0.0
-    return found

@@ -22,6 +22,7 @@ from tehl.result.fields import (
     HeatBalance,
 )
 from tehl.solver.cycle.level import Level
+from tehl.solver.physics.cavity import oil_flow
 
 
 def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
@@ -229,7 +230,7 @@ def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:
     """
     if not level.stencil.conserves:
         return None
-    (held, passed), grid, unit = level.oil_flow(), level.grid, scaled.scales.film_thickness
+    (held, passed), grid, unit = oil_flow(level), level.grid, scaled.scales.film_thickness
     film = level.film
     full = film.rho * np.maximum(film.h, level.equations.floor)
     fill = np.where(film.partial > 0, np.minimum(held / full, 1.0), 1.0)
@@ -259,7 +260,7 @@ def oil_balance(level: Level, *, until: float = np.inf) -> float:
     until : float
         X up to which all sections count; further downstream only the last one does.
     """
-    _, passed = level.oil_flow()
+    _, passed = oil_flow(level)
     film, stencil, mirror = level.film, level.stencil, level.grid.mirror
     weights = np.ones(passed.shape[0])
     weights[0] = 0.5 if mirror else 0.0

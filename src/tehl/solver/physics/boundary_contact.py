@@ -27,6 +27,7 @@ from tehl.solver.physics.boundary_system import (
     TouchingSystem,
     transport,
 )
+from tehl.solver.physics.cavity import set_orders
 from tehl.solver.physics.share import contact_of
 
 SUFFICIENT_DECREASE, SHORTEST_CONTACT_STEP = 0.05, 0.12
@@ -185,7 +186,7 @@ def choose_orders(level: Level, order: int = 2) -> None:
     """
     contact = contact_of(level.share)
     contact.lowered[:] = with_neighbours(contact.touching) if order > 1 else True
-    level.set_orders()
+    set_orders(level)
 
 
 def lower_orders(level: Level) -> None:

@@ -26,6 +26,7 @@ from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import Relaxation
 from tehl.solver.judging.convergence import LEAST_KELVIN, RUNAWAY
 from tehl.solver.physics.boundary_cycle import TouchingCycle
+from tehl.solver.physics.cavity import oil_flow
 from tehl.solver.transient.predictor import Predictor
 
 LARGEST_STEP_LOAD_ERROR = 1e-4
@@ -153,7 +154,7 @@ class Stepper:
     def _held(self) -> Array:
         """Return the oil at each node; on the edges where it enters that of the steady film."""
         level = self.solver.finest
-        held = level.held_oil()
+        held = level.cavity.held(level)
         if level.stencil.conserves:
             starved = level.film.partial[:, 0] > 0
             held[starved, 0] = self.steady[starved, 0]
@@ -215,7 +216,7 @@ def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
         if level.equations.contact_film is not None:
             return mass, steady_flux(level.film, mass, level.grid.dx, order)
         return mass, steady_wedge(mass, level.grid.dx, order)
-    held, _ = level.oil_flow()
+    held, _ = oil_flow(level)
     for edge in (-1,) if level.grid.mirror else (0, -1):  # nothing is solved there
         held[edge] = np.minimum(held[edge], level.film.layer[edge])
     return held, steady_flux(level.film, held, level.grid.dx, order)

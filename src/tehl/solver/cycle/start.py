@@ -1,0 +1,83 @@
+"""First approximations on a level: dry pressure, the coarser solution, a similar contact."""
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
+from tehl.operators.transfer import refine
+from tehl.result.solution import Solution
+from tehl.solver.cycle.level import Level
+
+LEAST_GUESS_GAIN = 0.1
+"""Residual of a guess over that of the interpolated coarser film, below which the guess is taken.
+Full multigrid starts near the solution, which few neighbours of a study beat."""
+
+
+def from_dry_pressure(level: Level, expected_film: float) -> None:
+    """Start from the Hertz pressure, or of dry asperities, at the expected central film.
+
+    Parameters
+    ----------
+    level : Level
+        Poses its problem too.
+    expected_film : float
+        H in the middle [-].
+    """
+    level.pose_problem()
+    level.share.start(level, expected_film)
+
+
+def from_coarser(coarse: Level, fine: Level) -> None:
+    """Start from the solution of the next coarser grid, by cubic interpolation.
+
+    Parameters
+    ----------
+    coarse, fine : Level
+        The unknowns of the finer one change in place.
+    """
+    oil, asperity = refine(coarse.film.p, fine.grid), coarse.film.asperity
+    asperity = refine(asperity, fine.grid) if asperity.size else asperity
+    fine.set_state(oil, coarse.rigid_approach, asperity)
+
+
+def from_guess(level: Level, guess: Solution | None) -> None:
+    """Start from the film of a similar contact if its residual is much smaller.
+
+    Parameters
+    ----------
+    level : Level
+        With a first approximation.
+    guess : Solution or None
+        None leaves it as it is.
+    """
+    if guess is None or level.share.bounds_film:
+        return
+    level.pose_problem()
+    here, before = level.state(), _distance(level)
+    level.set_state(_values_on(level.grid, guess, guess.scaled.pressure), guess.rigid_approach)
+    if guess.asperities is not None:
+        pressure = guess.asperities.pressure / guess.scales.hertz_pressure
+        level.film.asperity[:] = _values_on(level.grid, guess, pressure)
+    if not _distance(level) < LEAST_GUESS_GAIN * before:
+        level.set_state(*here)
+
+
+def _distance(level: Level) -> float:
+    """Return residual plus load error of the present state [-]."""
+    level.update()
+    return level.evaluate_residual() + abs(level.load_error())
+
+
+def _values_on(grid: Grid, guess: Solution, pressure: Array) -> Array:
+    """Return a pressure of a result on ``grid``, bilinear between its nodes [-]."""
+    x, y = guess.scaled.x, guess.scaled.y
+    if not np.array_equal(grid.x, x):
+        pressure = np.array([np.interp(grid.x, x, row, left=0.0, right=0.0) for row in pressure])
+    if not np.array_equal(grid.y, y):
+        columns = [np.interp(grid.y, y, column, left=0.0, right=0.0) for column in pressure.T]
+        pressure = np.array(columns).T
+    found = np.maximum(pressure, 0.0)
+    found[-1] = found[:, 0] = found[:, -1] = 0.0
+    if not grid.mirror:
+        found[0] = 0.0
+    return found
