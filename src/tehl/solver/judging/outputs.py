@@ -22,7 +22,7 @@ from tehl.result.fields import (
     HeatBalance,
 )
 from tehl.solver.cycle.level import Level
-from tehl.solver.physics.cavity import oil_flow
+from tehl.solver.physics.cavity import oil_flow, secant
 
 
 def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
@@ -261,7 +261,7 @@ def oil_balance(level: Level, *, until: float = np.inf) -> float:
         X up to which all sections count; further downstream only the last one does.
     """
     _, passed = oil_flow(level)
-    film, stencil, mirror = level.film, level.stencil, level.grid.mirror
+    film, stencil, mirror = secant(level.film), level.stencil, level.grid.mirror
     weights = np.ones(passed.shape[0])
     weights[0] = 0.5 if mirror else 0.0
     weights[-1] = 0.0

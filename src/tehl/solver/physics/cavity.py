@@ -189,8 +189,18 @@ def set_orders(level: Wetted) -> None:
 def oil_flow(level: Wetted) -> tuple[Array, Array]:
     """Return the oil at each node, rho H or less, and the flux to the east, ``grid.shape``."""
     held, passed = np.empty(level.grid.shape), np.empty(level.grid.shape)
-    reynolds.oil_flow(level.film, level.stencil, held, passed)
+    reynolds.oil_flow(secant(level.film), level.stencil, held, passed)
     return held, passed
+
+
+def secant(film: Film) -> Film:
+    """Return a film with the conductances that its flow has.
+
+    Those of a film that thins in shear relax as tangents, with a right-hand side
+    (`tehl.solver.cycle.level.Level.write_source`): they are no flow.
+    """
+    eps_y = film.eps * film.across if film.across.size else film.eps
+    return film._replace(eps_x=film.eps, eps_y=eps_y)
 
 
 def cavity_of(equations: Equations) -> ZeroPressure:
