@@ -197,7 +197,7 @@ def secant(film: Film) -> Film:
     """Return a film with the conductances that its flow has.
 
     Those of a film that thins in shear relax as tangents, with a right-hand side
-    (`tehl.solver.cycle.level.Level.write_source`): they are no flow.
+    (`tehl.solver.cycle.level.Level.write_source`): those are not of the flow.
     """
     eps_y = film.eps * film.across if film.across.size else film.eps
     return film._replace(eps_x=film.eps, eps_y=eps_y)
