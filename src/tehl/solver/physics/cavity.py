@@ -12,7 +12,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.kernels import reynolds, transfer
-from tehl.kernels.properties import Film
+from tehl.kernels.properties import Factors, Film
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Smoother
 from tehl.solver.physics.share import OilAlone
@@ -24,6 +24,11 @@ FRONT_SWEEPS, FRONT_WIDTH, FRONT_RESTS = (4, 16), 6, 0.03
 """Least and most sweeps where a starved film begins, nodes to both sides, and nodes that fill or
 empty over the number of lines below which the meniscus is stationary. Least CPU time of 20
 contacts (M 20 to 200, r 0.2 to 4, 257 nodes) that all converge."""
+
+
+BESIDE_CAVITIES = 2
+"""Nodes around partly filled ones that relax with the conductance of the flow: one beyond each
+face, and one as they fill and empty."""
 
 
 class Wetted(Protocol):
@@ -69,6 +74,9 @@ class ZeroPressure:
 
     def mark(self, level: Wetted) -> None:
         """Mark what follows from the present film."""
+
+    def limit(self, level: Wetted, factors: Factors) -> None:
+        """Limit the effect of heat and thinning on relaxation where cavities demand it."""
 
     def held(self, level: Wetted) -> Array:
         """Return the oil at each node after a time step, ``grid.shape`` [-]."""
@@ -123,6 +131,17 @@ class Conserving(ZeroPressure):
         reynolds.mark_partial(film, stencil, level.sources.reynolds, scratch, level.smoother.ends)
         if not self.keeps_orders:
             set_orders(level)
+
+    def limit(self, level: Wetted, factors: Factors) -> None:
+        """Take no tangents beside partly filled nodes: these pass on the flow that comes."""
+        near = level.film.partial > 0
+        for _ in range(BESIDE_CAVITIES):
+            grown = near.copy()
+            for axis in (near.T, grown.T), (near, grown):
+                axis[1][1:] |= axis[0][:-1]
+                axis[1][:-1] |= axis[0][1:]
+            near = grown
+        factors.stretch_x[near] = factors.stretch_y[near] = 1.0
 
     def held(self, level: Wetted) -> Array:
         """Return the oil at each node after a time step.

@@ -275,6 +275,7 @@ class Coupling:
     def _set_factors(levels: Sequence[Level], factors: properties.Factors) -> None:
         """Set the factors of the last of ``levels``, and inject them to the coarser ones."""
         fine = levels[-1]
+        fine.cavity.limit(fine, factors)
         for level in reversed(levels):
             level.couple(factors)
             factors = properties.Factors(*(array[::2, ::2].copy() for array in factors))  # injected
