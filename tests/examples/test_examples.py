@@ -190,6 +190,15 @@ def test_grooves_touch_at_low_speed_and_are_apart_at_high_speed():
     assert max(balances) < 1e-9
 
 
+def test_a_wave_doubles_the_stress_near_the_surface_only():
+    numbers = example("stress").main()
+    assert numbers["smooth: largest shear stress over p_h"] == pytest.approx(0.319, abs=0.002)
+    assert numbers["smooth: its depth over a"] == pytest.approx(0.463, abs=0.01)
+    assert numbers["wave: its depth over a"] < 0.1
+    assert numbers["wave: life over that of dry contact"] == pytest.approx(0.106, rel=0.05)
+    assert numbers["wave: with residual stress [MPa]"] < numbers["wave: stress of Dang Van [MPa]"]
+
+
 def test_a_bearing_list_has_its_films():
     table = example("bearing_list").main()
     assert list(table["status"]) == ["converged", "converged"]

@@ -13,11 +13,14 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar, overload
 from tehl.api.problem import ContactProblem
 from tehl.base.lazy import lazy
 from tehl.base.typing import Array
+from tehl.contact.stress import Stress
 from tehl.post import transient_numbers
 from tehl.post.boundary_contact import Touching, touching
 from tehl.post.heat import Temperature, temperature
 from tehl.post.roughness import RoughFilm, rough_film
 from tehl.post.starvation import Starvation, starvation
+from tehl.post.stress.below import stress_below
+from tehl.post.stress.numbers import StressNumbers, stress_numbers
 from tehl.post.summits import LoadSharing, load_sharing
 from tehl.post.traction import Traction, traction
 from tehl.report.headline import as_line
@@ -100,6 +103,23 @@ class Result(Saved, Solution):
     def touching(self) -> Touching | None:
         """Load and friction of film and contact, None without a boundary film."""
         return touching(self)
+
+    def with_stress(self, **settings: Any) -> Self:
+        """Return the result with the stress below its surfaces; nothing is solved.
+
+        Parameters
+        ----------
+        **settings
+            Keys of the table ``[stress]``; that of the case without any, or the defaults.
+        """
+        table = Stress(**settings) if settings else self.problem.stress or Stress()
+        problem = self.problem.model_copy(update={"stress": table})
+        return self.but(problem=problem, stress=stress_below(self, table))
+
+    @property
+    def stress_numbers(self) -> StressNumbers | None:
+        """Largest stresses below the surfaces, None if they were not computed."""
+        return stress_numbers(self)
 
     @property
     def starvation(self) -> Starvation | None:

@@ -7,6 +7,7 @@ from typing import ParamSpec, TypeVar
 
 from tehl import solver
 from tehl.api.results import Result, TransientResult, failures_with_results
+from tehl.post.stress.below import with_stress
 from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
 from tehl.solver import with_work
@@ -40,11 +41,11 @@ def _giving(result_of: Callable[[Plain], Whole], solve: Callable[P, Plain]) -> C
 
 
 def _steady(solution: Solution) -> Result:
-    return Result.of(solution)
+    return Result.of(with_stress(solution))
 
 
 def _transient(solution: TransientSolution) -> TransientResult:
-    return TransientResult.of(solution)
+    return TransientResult.of(solution.but(start=with_stress(solution.start)))
 
 
 solve = _giving(_steady, solver.solve)

@@ -19,6 +19,7 @@ from tehl.cli.reference_runs import REFERENCES, Comparisons, compare, smooth_fil
 from tehl.cli.text import as_text, failure_text
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
+from tehl.contact.stress import Stress
 from tehl.estimate.domain import planned
 from tehl.estimate.memory import check_memory
 from tehl.estimate.scaling import ScaledProblem
@@ -44,6 +45,7 @@ class Job:
     as_json: bool
     overrides: list[str]
     certify: bool
+    stress: bool
     with_isothermal: bool
     with_smooth: bool
     quiet: bool
@@ -61,6 +63,8 @@ def run(job: Job) -> bool:
     Invalid case, overrides, outputs or arguments are an InputError before anything is solved.
     """
     problem, options = read_case_and_options(job.case, job.overrides)
+    if job.stress and problem.stress is None:
+        problem = problem.model_copy(update={"stress": Stress()})
     _check_outputs(job)
     check_memory(planned(ScaledProblem.of(problem), options), problem)
     _check_arguments(problem, job)

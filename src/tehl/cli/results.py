@@ -32,7 +32,7 @@ else:
 
 Format = StrEnum("Format", ["csv", "vtk", "npz", "mat"])
 Image = StrEnum("Image", ["png", "pdf", "svg"])
-What = StrEnum("What", ["lines", "fields", "history"])
+What = StrEnum("What", ["lines", "fields", "history", "depths", "section"])
 
 
 def _pictures(ctx: Context, incomplete: str) -> list[str]:
@@ -126,6 +126,10 @@ def animate(
         int, Option("--fps", min=1, max=100, help="Frames shown per second.")
     ] = 10,
     dpi: Annotated[int, Option(min=30, max=600, help="Dots per inch.")] = 100,
+    stress: Annotated[
+        int | None,
+        Option(min=1, max=2, metavar="BODY", help="Show the shear stress below this surface."),
+    ] = None,
 ) -> None:
     """Animate a stored transient result; nothing is solved.
 
@@ -134,9 +138,8 @@ def animate(
     target = stored.with_suffix(".gif") if output is None else output
     animation.check_format(target)
     check_writable(target, sources=(stored,))
-    animation.animate(
-        results.load_as(results.TransientResult, stored), target, per_second=per_second, dpi=dpi
-    )
+    run = results.load_as(results.TransientResult, stored)
+    animation.animate(run, target, per_second=per_second, dpi=dpi, stress=stress)
     echo(target)
 
 
@@ -151,8 +154,8 @@ def export(
     what: Annotated[
         What | None,
         Option(
-            help="csv only: centre lines (default), fields at all nodes, or the history of the "
-            "cycles or time steps (default of a transient result)."
+            help="csv only: centre lines (default), fields at all nodes, the history of the cycles "
+            "or time steps (default of a transient result), stresses over depth or on y = 0."
         ),
     ] = None,
 ) -> None:

@@ -29,6 +29,9 @@ def solve(  # noqa: PLR0913 (the options of the command)
     certify: Annotated[
         bool, Option("--certify", help="Solve on three grids and a larger domain: error bars.")
     ] = False,
+    stress: Annotated[
+        bool, Option("--stress", help="Stress below the surfaces, by the defaults of [stress].")
+    ] = False,
     with_isothermal: Annotated[
         bool, Option("--with-isothermal", help="Reference run without heat: what heat changes.")
     ] = False,

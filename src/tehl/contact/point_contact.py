@@ -23,6 +23,7 @@ from tehl.contact.heat import FilmEnergy, Thermal
 from tehl.contact.hertz import HertzContact, ellipticity
 from tehl.contact.materials import NamedSolid, reduced_modulus
 from tehl.contact.shape import Ellipse, Shape
+from tehl.contact.stress import Stress
 from tehl.contact.summits import Asperities
 from tehl.contact.supply import Cavitation, Supply
 from tehl.contact.transient import Transient
@@ -202,6 +203,8 @@ class PointContact(Table):
     """Boundary film through which the surfaces may touch; None has no contact."""
     cavitation: Cavitation | None = None
     """What happens to the oil in cavities; None conserves it in starved contacts only."""
+    stress: Stress | None = None
+    """Settings of the stress below the surfaces; None does not compute it."""
 
     @property
     def radii(self) -> Radii:

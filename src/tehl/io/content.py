@@ -18,6 +18,7 @@ from tehl.io.summary import summary
 from tehl.io.tables import Column
 from tehl.result.bars import ErrorEstimate
 from tehl.result.fields import (
+    BodyStress,
     Fields,
     FilmAsperities,
     FilmContact,
@@ -54,6 +55,7 @@ class Variable:
 
 _AXES = {"x": "X", "y": "Y", "zeta": "zeta", "time": "time"}
 _AXES |= {"frame": "frame_step", "bar": "bar_time", "pass": "pass"}
+_AXES |= {"body": "stress_body", "depth": "stress_depth", "stress_x": "stress_x"}
 """Array that gives the size of each dimension."""
 _PARTS: dict[str, tuple[type, Table]] = {
     "heights": (SurfaceHeights, tables.HEIGHTS),
@@ -62,6 +64,7 @@ _PARTS: dict[str, tuple[type, Table]] = {
     "oil": (FilmOil, tables.OIL),
     "passes": (PassHistory, tables.PASSES),
     "shear": (FilmShear, tables.SHEAR),
+    "stress": (BodyStress, tables.STRESS),
 }
 """Parts of a solution that only some contacts have, all of arrays."""
 _NOT_SCALAR = {

@@ -28,7 +28,13 @@ _FORMATS = {
 """Format by the ending of a file; programs choose a reader by the ending."""
 _MEANINGS = {".vtr": " (plane)", ".vts": " (volume)", ".pvd": " (collection of frames)"}
 _ROWS = {
-    Solution: {"lines": ("y", "x"), "fields": ("y", "x"), "history": ("cycle",)},
+    Solution: {
+        "lines": ("y", "x"),
+        "fields": ("y", "x"),
+        "history": ("cycle",),
+        "depths": ("body", "depth"),
+        "section": ("body", "depth", "stress_x"),
+    },
     TransientSolution: {
         "history": ("time",),
         "lines": ("time", "x"),
@@ -49,8 +55,10 @@ def export(
     the variables of the NetCDF file, with their unit as ending. ``"lines"`` of a steady result are
     the grid lines nearest to the axes: first those with ``line = x`` (along entrainment, Y = 0),
     then ``line = y`` (across, X = 0); ``"fields"`` are all nodes, x running fastest, and
-    ``"history"`` the multigrid cycles. Of a transient result ``"history"`` has a row per step,
-    ``"lines"`` the nodes of the line y = 0 at each step, and ``"fields"`` all nodes of each frame.
+    ``"history"`` the multigrid cycles; ``"depths"`` has the largest stresses at each depth below
+    the surfaces, ``"section"`` their components on y = 0. Of a transient result ``"history"`` has a
+    row per step, ``"lines"`` the nodes of the line y = 0 at each step, and ``"fields"`` all nodes
+    of each frame.
 
     npz (numpy) and mat (MATLAB) have all arrays of the NetCDF file under the same names, and its
     ``summary`` as JSON text.
@@ -71,7 +79,7 @@ def export(
         The file; existing files are replaced.
     to : {"csv", "npz", "vtk", "mat"}, optional
         Format; by default that of the ending of ``path``.
-    what : {"lines", "fields", "history"}, optional
+    what : {"lines", "fields", "history", "depths", "section"}, optional
         Rows of a CSV table; lines of a steady result and the history of a transient one by default.
 
     Returns

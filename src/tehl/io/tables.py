@@ -75,6 +75,38 @@ CONTACT = (
     *_table("y x", ("pressure", "contact_pressure", "Pa", "pressure of contact beside the oil")),
     *_table("", ("balance", "contact_oil_balance", "1", "mass-balance error, over the throughput")),
 )
+STRESS = (
+    *_table("body", ("body", "stress_body", "1", "number of the body")),
+    *_table("depth", ("depth", "stress_depth", "m", "depth below the surface")),
+    *_table("stress_x", ("x", "stress_x", "m", "coordinate along entrainment of stresses")),
+    *_table(
+        "body depth stress_x",
+        *(
+            (name, f"stress_{name}", "Pa", f"sigma_{name} on y = 0, tension positive")
+            for name in ("xx", "yy", "zz", "xy", "yz", "zx")
+        ),
+    ),
+    *_table(
+        "body depth",
+        ("shear", "shear_max", "Pa", "largest shear stress at the depth"),
+        ("shear_x", "shear_max_x", "m", "its place along x"),
+        ("shear_y", "shear_max_y", "m", "its place along y"),
+        ("von_mises", "von_mises_max", "Pa", "largest stress of von Mises"),
+        ("orthogonal", "orthogonal_shear", "Pa", "largest amplitude of tau_zx along x"),
+        ("dang_van", "dang_van", "Pa", "largest stress of Dang Van"),
+        ("shear_coarse", "shear_max_coarse", "Pa", "shear_max by loads on every second node"),
+        ("shear_dry", "shear_max_dry", "Pa", "shear_max of the dry smooth contact"),
+        ("orthogonal_dry", "orthogonal_shear_dry", "Pa", "orthogonal_shear of the dry contact"),
+        ("dang_van_dry", "dang_van_dry", "Pa", "dang_van of the dry smooth contact"),
+    ),
+    *_table(
+        "body",
+        ("life", "life_ratio", "1", "life over that of the dry smooth contact"),
+        ("life_coarse", "life_ratio_coarse", "1", "life_ratio by loads on every second node"),
+        ("traction", "stress_traction", "1", "force of the film on the body over the load"),
+    ),
+    *_table("", ("left_out", "stress_traction_left_out", "1", "1 where film shear is left out")),
+)
 OIL = (
     *_table("y x", ("fill", "fill", "1", "part of the gap that is oil")),
     *_table(
@@ -168,5 +200,8 @@ BARS = _table(
 )
 """Further parts of a transient result."""
 
-COORDINATES = ("x", "y", "X", "Y", "zeta", "cycle", "time", "frame_time", "bar_time")
+COORDINATES = (
+    *("x", "y", "X", "Y", "zeta", "cycle", "time", "frame_time", "bar_time"),
+    *("stress_body", "stress_depth", "stress_x"),
+)
 """Arrays that are coordinates of a dataset."""

@@ -27,6 +27,7 @@ from tehl.plots.maps import (
     shear_stress_map,
 )
 from tehl.plots.oil import oil_map, pass_history
+from tehl.plots.stress import moving_section, stress_section
 from tehl.plots.surface import surface_preview
 from tehl.plots.table_curves import curves
 from tehl.plots.table_maps import contour_map, film_deviations, moes_map
@@ -63,6 +64,7 @@ __all__ = [
     "mid_film_temperature",
     "moes_map",
     "moments",
+    "moving_section",
     "oil_map",
     "pass_history",
     "passage",
@@ -74,6 +76,7 @@ __all__ = [
     "save_all",
     "shear_stress_map",
     "space_time",
+    "stress_section",
     "surface_heat",
     "surface_preview",
     "temperature_layers",
@@ -110,12 +113,14 @@ def pictures_of(result: Solution | TransientSolution, smooth: Solution | None = 
         Smooth reference run on the same grid, for pictures of ripples.
     """
     if isinstance(result, TransientSolution):
-        return {
+        moving: Pictures = {
             "history": history,
             "space_time": space_time,
             "moments": moments,
             "passage": passage,
         }
+        has_stress = result.start.problem.stress is not None and result.frames.step.size
+        return moving | ({"moving_stress": moving_section} if has_stress else {})
     found = dict(PICTURES)
     found |= _of_oil(result)
     if rough_film(result) is not None:
@@ -126,6 +131,8 @@ def pictures_of(result: Solution | TransientSolution, smooth: Solution | None = 
         found["film_distribution"] = film_distribution
     if result.shear is not None and result.problem.slide_roll_ratio != 0:
         found["shear_stress"] = shear_stress_map
+    if result.stress is not None:
+        found["stress"] = stress_section
     if result.heat is not None:
         found["temperature"] = mid_film_temperature
         found["temperature_layers"] = temperature_layers

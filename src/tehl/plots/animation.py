@@ -1,4 +1,4 @@
-"""A transient run as an animation: a map of the film above, the line y = 0 below."""
+"""A transient run as an animation: a map of the film or of stresses above, the line y = 0 below."""
 
 import base64
 import io
@@ -27,18 +27,27 @@ from tehl.plots.frame import (
     window_part,
     window_places,
 )
+from tehl.plots.stress import section_image, section_rows
 from tehl.plots.transient import CentreLines, time_unit
+from tehl.post.stress.moving import moving_stress
 from tehl.result.transient import TransientSolution
 
 FORMATS = (".gif", ".mp4", ".html")
 MOST_MOMENTS = 200
 """Largest number of moments in an animation of the line y = 0 alone."""
 _UPPER, _LOWER = (0.13, 0.41, 0.69, 0.51), (0.13, 0.07, 0.75, 0.255)
-"""Axes of map and lines: left, bottom, width and height in parts of the picture."""
+_SECTION, _BELOW = (0.13, 0.48, 0.69, 0.4), (0.13, 0.08, 0.75, 0.3)
+"""Axes of map and lines, and of section and lines: left, bottom, width and height in parts of the
+picture."""
 
 
 def animate(
-    run: TransientSolution, path: str | Path, *, per_second: int = 10, dpi: int = 100
+    run: TransientSolution,
+    path: str | Path,
+    *,
+    per_second: int = 10,
+    dpi: int = 100,
+    stress: int | None = None,
 ) -> None:
     """Write a transient run as an animation; whole, or not at all.
 
@@ -57,6 +66,8 @@ def animate(
         Moments per second.
     dpi : int
         Dots per inch.
+    stress : {1, 2} or None
+        Body whose largest shear stress on y = 0 is shown in place of the film.
 
     Raises
     ------
@@ -66,7 +77,7 @@ def animate(
     ending = check_format(path)
     if not per_second > 0:
         raise InputError(f"per_second = {per_second}: must be positive, typically 10")
-    movie = Movie(run, dpi=dpi)
+    movie = Movie(run, dpi=dpi, stress=stress)
     with replacing(path) as temporary:
         made = temporary.with_suffix(ending)  # the writers choose the format by the extension
         try:
@@ -164,23 +175,36 @@ def check_format(path: str | Path) -> str:
 
 
 class Movie:
-    """One figure that can show each moment of a run, with the map of the film if it is stored."""
+    """One figure that can show each moment of a run, with the map of the film if it is stored.
 
-    def __init__(self, run: TransientSolution, *, dpi: int = 100) -> None:
+    With ``stress`` it shows the section y = 0 of that body in place of the map.
+    """
+
+    def __init__(
+        self, run: TransientSolution, *, dpi: int = 100, stress: int | None = None
+    ) -> None:
         self.run, count = run, len(run.history.time)
         has_fields = run.frames.step.size >= 2
         shown = np.unique(
             np.linspace(0, count - 1, min(count, MOST_MOMENTS)).round().astype(np.int64)
         )
         self.steps = run.frames.step if has_fields else shown
-        self.picture = figure(run, (6.2, 7.4 if has_fields else 3.4))
+        height = 3.4 if not has_fields else 7.4 if stress is None else 6.2
+        self.picture = figure(run, (6.2, height))
         self.picture.set_dpi(dpi)
         self.canvas = FigureCanvasAgg(self.picture)
-        self.film: AxesImage | None = None
+        self.image: AxesImage | None = None
+        self._section = None if stress is None else moving_stress(run, stress)
         if has_fields:
             self.picture.set_layout_engine("none")
-            self.film = _film_image(self.picture.add_axes(_UPPER), run)
-        lower = self.picture.add_axes(_LOWER) if has_fields else self.picture.add_subplot()
+            upper = self.picture.add_axes(_UPPER if stress is None else _SECTION)
+            if self._section is None:
+                self.image = _film_image(upper, run)
+            else:
+                self.image = section_image(upper, run, self._section, 0)
+                colour_bar(upper, self.image, f"largest shear stress, body {stress} [GPa]")
+        place = _LOWER if stress is None else _BELOW
+        lower = self.picture.add_axes(place) if has_fields else self.picture.add_subplot()
         self.lines = CentreLines(run, lower)
         lower.set_xlabel(ALONG_X)
         self.caption = lower.set_title(" ", fontsize=9, loc="left")
@@ -194,9 +218,15 @@ class Movie:
         factor, unit = time_unit(self.run)
         self.caption.set_text(f"t = {self.run.history.time[step] * factor:.4g} {unit}")
         self.lines.show(step)
-        if self.film is not None:
-            shown = self.run.frames.film[number][window_part(self.run.start)]
-            self.film.set_data(shown * np.float32(MICRO))
+        if self.image is not None:
+            self.image.set_data(self._shown(number))
+
+    def _shown(self, number: int) -> NDArray[Any]:
+        """Return what the upper map shows of one moment, in the unit of its colours."""
+        if self._section is None:
+            film = self.run.frames.film[number][window_part(self.run.start)]
+            return np.asarray(film * np.float32(MICRO))
+        return section_rows(self.run, self._section, number)
 
     def pixels(self, number: int) -> NDArray[np.uint8]:
         """Return one moment as a picture, (rows, columns, 3)."""

@@ -7,6 +7,7 @@ from tehl.post.film import mean_film
 from tehl.post.heat import Temperature, temperature, work_error
 from tehl.post.roughness import RoughFilm, rough_film
 from tehl.post.starvation import Starvation, starvation
+from tehl.post.stress.numbers import StressNumbers, stress_numbers
 from tehl.post.summits import LoadSharing, load_sharing
 from tehl.post.traction import Traction, traction
 from tehl.result.registry import NumbersOf
@@ -53,6 +54,11 @@ class Following:
     def starvation(self) -> Starvation | None:
         """Numbers of a starved film, None for a flooded one."""
         return starvation(self.solution)
+
+    @cached_property
+    def stress(self) -> StressNumbers | None:
+        """Largest stresses below the surfaces, None if they were not computed."""
+        return stress_numbers(self.solution)
 
     @cached_property
     def mean_film(self) -> float | None:

@@ -235,6 +235,7 @@ def film_at(run: TransientSolution, frame: int = -1) -> Solution:
         uncertainty={},
         shear=None,
         heat=None,
+        stress=None,
     )
 
 

@@ -47,6 +47,8 @@ CAPTIONS = {
     "temperature": "Temperature rise half-way between the surfaces, over the oil at the inlet.",
     "temperature_layers": "Temperature rise on both surfaces and in the film.",
     "temperature_section": "Temperature rise in the plane y = 0, over z/h and over z.",
+    "stress": "Largest shear stress on y = 0 below a surface, and the largest at each depth.",
+    "moving_stress": "Largest shear stress below a surface: when it is largest, and over time.",
     "surface_heat": "Temperatures and heat fluxes into the solids along y = 0.",
     "interferogram_white": "Synthetic interferogram, white light.",
     "interferogram_dichromatic": "Synthetic interferogram, two lines.",

@@ -65,6 +65,7 @@ def following(result: Solution | TransientSolution) -> Following | dict[str, Any
     if isinstance(result, TransientSolution):
         return {
             "traction": found.traction,
+            "stress": found.stress,
             "friction": friction(result),
             "late_extremes": late_extremes(result),
             "longer_duration": longer_duration(result),

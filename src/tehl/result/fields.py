@@ -158,6 +158,48 @@ class FilmContact(_ReadOnly):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class BodyStress(_ReadOnly):
+    """Stress below the surfaces, read-only arrays; tension is positive, z points into each body."""
+
+    body: Array
+    """(n,): Numbers of the bodies, 1 below z = 0 and 2 above z = h."""
+    depth: Array
+    """(nz,): z [m]."""
+    x: Array
+    """(nw,): Along the plane y = 0 [m]."""
+    xx: Array
+    yy: Array
+    zz: Array
+    xy: Array
+    yz: Array
+    zx: Array
+    """(n, nz, nw): Components on the plane y = 0 [Pa]."""
+    shear: Array
+    shear_x: Array
+    shear_y: Array
+    """(n, nz): Largest shear stress at each depth [Pa], and its place [m]."""
+    von_mises: Array
+    orthogonal: Array
+    dang_van: Array
+    """(n, nz): Largest stress of von Mises, amplitude of tau_zx along x, and Dang Van's stress
+    [Pa]."""
+    shear_coarse: Array
+    """(n, nz): The largest shear stress by loads on every second node [Pa]."""
+    shear_dry: Array
+    orthogonal_dry: Array
+    dang_van_dry: Array
+    """(n, nz): The same of the dry smooth contact under the same load [Pa]."""
+    life: Array
+    life_coarse: Array
+    """(n,): Life over that of the dry smooth contact, also by loads on every second node [-]; zero
+    where it is not defined."""
+    traction: Array
+    """(n,): Force of the film on the body along x over the load [-]."""
+    left_out: Array
+    """(): 1 where the shear stress of the film is more than any oil can carry: it is left out."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class FilmOil(_ReadOnly):
     """Where the oil is, in a film whose cavities conserve it; read-only arrays."""
 

@@ -22,6 +22,7 @@ from tehl.result.derived import (
     share_error,
 )
 from tehl.result.quantity import Quantity
+from tehl.result.stress_quantities import stress_quantities
 
 _EVERYWHERE = "list notebook line text report page"
 
@@ -407,6 +408,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         words={"axis": "distance of the meniscus ahead of the contact"},
     ),
     *_plain("starvation", "entering_m leaving_m leaving_each_m balance"),
+    *stress_quantities(),
     Quantity("convergence.cycles", lambda found: len(found.finest)),
     Quantity("convergence.residual", _last("residual")),
     Quantity("convergence.change", _last("change")),

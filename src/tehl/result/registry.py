@@ -31,6 +31,9 @@ OWNERS: dict[str, Callable[[Any], Any]] = {
         found.touching.patches if found.touching and found.touching.is_share_known else None
     ),
     "starvation": lambda found: found.starvation,
+    "stress": lambda found: found.stress,
+    "stress.body_1": lambda found: found.stress and found.stress.of(1),
+    "stress.body_2": lambda found: found.stress and found.stress.of(2),
     "convergence": lambda found: found,
     "errors": lambda found: found.solution.errors,
     "cost": lambda found: found.solution,

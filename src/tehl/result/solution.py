@@ -13,6 +13,7 @@ from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import Groups, ScaledProblem, Scales
 from tehl.result.bars import ErrorEstimate, Estimate
 from tehl.result.fields import (
+    BodyStress,
     Fields,
     FilmAsperities,
     FilmContact,
@@ -204,6 +205,8 @@ class Extras:
     """Supply over that of the flooded contact, and balance of the oil; None like ``oil``."""
     passes: PassHistory | None = None
     """Earlier passes of the same surfaces and this one; None of a single film."""
+    stress: BodyStress | None = None
+    """Stress below the surfaces; None if the case does not ask for it."""
     resolution: Resolution | None = None
     """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
 
@@ -283,6 +286,7 @@ class Solution:
     oil = _Of[FilmOil | None]("extras")
     supplied = _Of[Supplied | None]("extras")
     passes = _Of[PassHistory | None]("extras")
+    stress = _Of[BodyStress | None]("extras")
     resolution = _Of[Resolution | None]("extras")
 
     @property

@@ -1,0 +1,1 @@
+"""Stress below the surface of both bodies, from pressure and traction of a result."""

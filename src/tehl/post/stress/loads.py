@@ -1,0 +1,70 @@
+"""What acts on the surface of each body: pressure and traction of film, asperities and contact."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.post.boundary_contact import touching_nodes
+from tehl.post.traction import traction
+from tehl.result.solution import Solution
+
+
+class SurfaceLoads(NamedTuple):
+    """Loads on one body, (ny, nx) each [Pa]."""
+
+    pressure: Array
+    """Of oil, asperities and contact together."""
+    traction_x: Array
+    traction_y: Array
+    """Force on the body over area."""
+
+
+def loads_on(result: Solution, body: int) -> SurfaceLoads:
+    """Return the loads on a body.
+
+    The shear stress of the film acts where there is pressure. That of a Newtonian film which would
+    transmit more than any oil can is left out (`left_out`). Where surfaces touch through a boundary
+    film, its friction replaces it; that of asperities is added.
+
+    Parameters
+    ----------
+    result : Solution
+        Steady, computed or loaded.
+    body : {1, 2}
+        The body below z = 0 or above z = h.
+    """
+    sign = 1.0 if body == 1 else -1.0  # its surface is the lower or the upper end of the film
+    film = np.maximum(result.pressure, 0.0)
+    total, rubbing = film.copy(), np.zeros_like(film)
+    stress_x, stress_y = np.zeros_like(film), np.zeros_like(film)
+    shear = result.shear
+    if shear is not None and not left_out(result):
+        wet = film > 0.0
+        stress_x = np.where(wet, getattr(shear, f"surface_{body}"), 0.0)
+        stress_y = np.where(wet, shear.across - sign * _rolling_across(result, film), 0.0)
+    problem = result.problem
+    if result.contact is not None and problem.contact_film is not None:
+        total += result.contact.pressure
+        meet = touching_nodes(result)
+        stress_x[meet] = 0.0
+        rubbing += np.where(meet, problem.contact_film.friction * total, 0.0)
+    if result.asperities is not None and problem.asperities is not None:
+        total += result.asperities.pressure
+        rubbing += problem.asperities.friction * result.asperities.pressure
+    stress_x -= np.sign(problem.slide_roll_ratio) * rubbing
+    return SurfaceLoads(total, sign * stress_x, sign * stress_y)
+
+
+def left_out(result: Solution) -> bool:
+    """Whether the shear stress of the film is more than any oil can carry, and is left out."""
+    found = traction(result)
+    return found is not None and not found.credible
+
+
+def _rolling_across(result: Solution, pressure: Array) -> Array:
+    """Return (h/2) dp/dy [Pa], by which the stress along y falls from mid-film to a surface."""
+    if pressure.shape[0] == 1:
+        return np.zeros_like(pressure)
+    slope = np.gradient(pressure, result.y[1] - result.y[0], axis=0)
+    return np.asarray(0.5 * result.film_thickness * slope)

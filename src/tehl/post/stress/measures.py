@@ -1,0 +1,86 @@
+"""What a stress does to a material: largest shear, von Mises, amplitudes of a rolling cycle."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.contact.stress import Stress
+
+
+def largest_shear(stress: Array) -> Array:
+    """Return half the difference of the largest and the least principal stress.
+
+    Parameters
+    ----------
+    stress : (6, ...) array
+        Components as in `influence.COMPONENTS`.
+    """
+    xx, yy, zz, xy, yz, zx = stress
+    mean = (xx + yy + zz) / 3.0
+    xx, yy, zz = xx - mean, yy - mean, zz - mean
+    second = _second_invariant(stress)
+    third = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx)
+    root = np.sqrt(second)
+    ratio = np.divide(
+        1.5 * np.sqrt(3.0) * third, root * second, out=np.zeros_like(root), where=root > 0
+    )
+    return np.asarray(root * np.cos(np.arccos(np.clip(ratio, -1.0, 1.0)) / 3.0 - np.pi / 6.0))
+
+
+def von_mises(stress: Array) -> Array:
+    """Return the equivalent stress of von Mises of components (6, ...)."""
+    return np.asarray(np.sqrt(3.0 * _second_invariant(stress)))
+
+
+def _second_invariant(stress: Array) -> Array:
+    """Return J2 of the deviator, never negative."""
+    xx, yy, zz, xy, yz, zx = stress
+    squares = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    return np.asarray(squares / 6.0 + xy * xy + yz * yz + zx * zx)
+
+
+class Worst(NamedTuple):
+    """What is largest at one depth, in the unit of the stress; place in nodes of the grid."""
+
+    shear: float
+    von_mises: float
+    orthogonal: float
+    """Half the range of tau_zx along the direction of rolling."""
+    dang_van: float
+    risk: float
+    """Sum over y of the criterion above the fatigue limit, to the power of ``stress_exponent``."""
+    row: float
+    column: float
+    """Where the largest shear is."""
+
+
+def worst(stress: Array, settings: Stress, limit: float) -> Worst:
+    """Return what is largest at one depth, where each line along x is a cycle of the material.
+
+    Parameters
+    ----------
+    stress : (6, ny, nx) array
+        At that depth, residual stress included.
+    settings : Stress
+        With the constants of fatigue.
+    limit : float
+        Fatigue limit in the unit of the stress.
+    """
+    shear = largest_shear(stress)
+    row, column = np.unravel_index(int(np.argmax(shear)), shear.shape)
+    low, high = stress.min(axis=-1, keepdims=True), stress.max(axis=-1, keepdims=True)
+    orthogonal = 0.5 * (high - low)[5, :, 0]
+    alternating = largest_shear(stress - 0.5 * (low + high))
+    tension = stress[:3].sum(axis=0) / 3.0
+    dang_van = (alternating + settings.dang_van_slope * tension).max(axis=-1)
+    damaging = orthogonal if settings.criterion == "orthogonal-shear" else dang_van
+    return Worst(
+        shear=float(shear[row, column]),
+        von_mises=float(von_mises(stress).max()),
+        orthogonal=float(orthogonal.max()),
+        dang_van=float(dang_van.max()),
+        risk=float((np.maximum(damaging - limit, 0.0) ** settings.stress_exponent).sum()),
+        row=float(row),
+        column=float(column),
+    )

@@ -1,0 +1,111 @@
+"""Stress below a surface in a transient run, at each of its stored fields."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.stress import Stress
+from tehl.post.stress.below import Case, March, cut, depths_of, middle_row, poisson_ratio, window_of
+from tehl.post.stress.loads import SurfaceLoads
+from tehl.post.stress.measures import Worst, largest_shear
+from tehl.post.traction import LARGEST_CREDIBLE
+from tehl.post.transient import film_at
+from tehl.result.transient import TransientSolution
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class MovingStress:
+    """Largest shear stresses below one surface over time."""
+
+    time: Array
+    """(nf,): Of the fields [s]."""
+    depth: Array
+    x: Array
+    """(nz,) and (nx,): Of the plane y = 0 [m]."""
+    plane: Array
+    """(nf, nz, nx): Largest shear stress on y = 0 [Pa]."""
+    shear: Array
+    von_mises: Array
+    """(nf, nz): Largest at each depth, anywhere in the plane of the film [Pa]."""
+
+
+def moving_stress(
+    run: TransientSolution, body: int = 1, settings: Stress | None = None
+) -> MovingStress:
+    """Return the stress below a surface at each stored field of a transient run.
+
+    Parameters
+    ----------
+    run : TransientSolution
+        With fields stored by ``transient.frames``.
+    body : {1, 2}
+        Below which surface.
+    settings : Stress or None
+        The table ``[stress]``; that of the case by default, or the defaults.
+
+    Raises
+    ------
+    InputError
+        If the run has no stored fields, or there is no such body.
+    """
+    frames, start = run.frames, run.start
+    if not frames.step.size:
+        raise InputError("the result has no fields (transient.frames = 0), so no stresses")
+    if body not in (1, 2):
+        raise InputError(f"body = {body}: must be 1 or 2")
+    settings = settings or start.problem.stress or Stress()
+    window = window_of(start, frames.pressure.max(axis=0))
+    depths = depths_of(film_at(run), settings, window)
+    march = March(depths, settings, start.scales.hertz_pressure)
+    row, ratio = middle_row(start, window), poisson_ratio(start, body)
+    planes, largest = [], []
+    for number in range(frames.step.size):
+        case = Case(cut(frame_loads(run, number, body), window), ratio)
+        found, plane = march.through([case], window.spacing, row=row)
+        planes.append(largest_shear(plane[0]))
+        largest.append(found[0])
+    worst = np.array(largest)
+    return MovingStress(
+        time=run.history.time[frames.step],
+        depth=depths,
+        x=start.x[window.columns],
+        plane=np.array(planes),
+        shear=worst[..., Worst._fields.index("shear")],
+        von_mises=worst[..., Worst._fields.index("von_mises")],
+    )
+
+
+def frame_loads(run: TransientSolution, frame: int, body: int) -> SurfaceLoads:
+    """Return the loads on a body at a stored field.
+
+    A run stores the traction of its film and the load of asperities over time, and pressure and
+    film over the nodes: the sliding part of the traction, and the pressure of asperities finer than
+    the grid, have the distribution of the pressure; the rolling part is exact. A traction that no
+    oil can carry is left out.
+
+    Parameters
+    ----------
+    run : TransientSolution
+        With stored fields.
+    frame : int
+        Number of the field.
+    body : {1, 2}
+        Below which surface.
+    """
+    film, problem, step = film_at(run, frame), run.start.problem, run.frames.step[frame]
+    pressure = np.maximum(film.pressure, 0.0)
+    traction, share = run.history.traction[step], run.history.asperity_load[step]
+    solid = problem.asperities or problem.contact_film
+    sliding = traction if abs(traction) <= LARGEST_CREDIBLE else 0.0
+    if solid is not None:
+        sliding -= np.sign(problem.slide_roll_ratio) * solid.friction * share
+    total = pressure / (1.0 - share) if problem.asperities is not None else pressure
+    sign = 1.0 if body == 1 else -1.0
+    along_y, along_x = (
+        np.gradient(pressure, axis, axis=k) if axis.size > 1 else np.zeros_like(pressure)
+        for k, axis in enumerate((film.y, film.x))
+    )
+    half = 0.5 * film.film_thickness
+    return SurfaceLoads(total, sign * sliding * total - half * along_x, -half * along_y)

@@ -1,0 +1,176 @@
+"""Numbers of the stress below the surfaces: largest values, their depths, ratios to dry contact."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import Polynomial
+
+from tehl.base.typing import Array
+from tehl.contact.stress import Stress
+from tehl.result.fields import BodyStress
+from tehl.result.solution import Solution
+
+PLACES_PER_INTERVAL = 256
+"""Places between two depths at which a maximum is searched."""
+NEIGHBOUR_DEPTHS = 2
+"""Depths on each side of a maximum whose values are interpolated: further away other principal
+stresses may be the largest."""
+
+
+class Peak(NamedTuple):
+    """A maximum over depth."""
+
+    value: float
+    """[Pa]."""
+    depth: float
+    """[m]."""
+    place: int
+    """Of the nearest depth that was computed."""
+
+
+def peak(depth: Array, values: Array) -> Peak:
+    """Return the maximum of a profile, by a polynomial in the logarithm of the depth.
+
+    Parameters
+    ----------
+    depth, values : (nz,) array
+        Increasing depths [m], and stresses [Pa].
+    """
+    index = int(np.argmax(values))
+    if index in (0, depth.size - 1):
+        return Peak(float(values[index]), float(depth[index]), index)
+    near = slice(max(index - NEIGHBOUR_DEPTHS, 0), index + NEIGHBOUR_DEPTHS + 1)
+    logarithms = np.log(depth[near])
+    curve = Polynomial.fit(logarithms, values[near], logarithms.size - 1)
+    first, last = np.log(depth[[index - 1, index + 1]]).tolist()
+    fine = np.linspace(first, last, 2 * PLACES_PER_INTERVAL + 1)
+    found = curve(fine)
+    best = int(np.argmax(found))
+    return Peak(float(found[best]), float(np.exp(fine[best])), index)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class BodyNumbers:
+    """Largest stresses below one surface."""
+
+    body: int
+    """Its number."""
+    shear: float
+    shear_depth: float
+    shear_x: float
+    shear_y: float
+    """Largest shear stress [Pa], its depth and place [m]."""
+    shear_error: float
+    """Its relative error bar: the change by loads on every second node, and the bar of the largest
+    pressure of the film [-]."""
+    shear_ratio: float
+    """Largest shear stress over that of the dry smooth contact [-]."""
+    von_mises: float
+    von_mises_depth: float
+    """Largest stress of von Mises [Pa], and its depth [m]."""
+    orthogonal: float
+    orthogonal_depth: float
+    """Largest amplitude of tau_zx along the direction of rolling [Pa], and its depth [m]."""
+    dang_van: float
+    dang_van_ratio: float | None
+    """Largest stress of Dang Van [Pa], and over that of the dry smooth contact [-]; None if that is
+    not positive."""
+    life_ratio: float | None
+    """Life over that of the dry smooth contact under the same load [-]; None without stress above
+    the fatigue limit."""
+    life_ratio_error: float | None
+    """Its relative error bar, from the same; it has the power of the stress in the life [-]."""
+    at_shallowest: bool
+    """Whether the shear stress is largest at the shallowest depth, so that it may grow above it."""
+    traction: float
+    """Force of the film on the body along x over the load [-]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class StressNumbers:
+    """Largest stresses below the surfaces."""
+
+    bodies: tuple[BodyNumbers, ...]
+    """Of each body that was computed."""
+    shallowest: float
+    """The shallowest depth [m]."""
+    traction_left_out: bool
+    """Whether the shear stress of the film is left out, as no oil can carry it."""
+    counts_roughness: bool
+    """Whether the pressure is that of rough surfaces: a factor of lambda or kappa on the relative
+    life would count the roughness twice."""
+
+    @property
+    def worse(self) -> BodyNumbers:
+        """Return the numbers of the body with the larger shear stress."""
+        return max(self.bodies, key=lambda one: one.shear)
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What limits the use of these numbers, in words."""
+        known = (
+            (
+                self.counts_roughness,
+                "the pressure is that of rough surfaces, which the relative life includes: a "
+                "factor of lambda or kappa on it would count the roughness twice",
+            ),
+            (
+                self.traction_left_out,
+                "the shear stress of the film is more than any oil can carry, and is left out",
+            ),
+        )
+        return tuple(words for applies, words in known if applies)
+
+    def of(self, body: int) -> BodyNumbers | None:
+        """Return the numbers of a body, None if it was not computed."""
+        return next((one for one in self.bodies if one.body == body), None)
+
+
+def stress_numbers(result: Solution) -> StressNumbers | None:
+    """Return the largest stresses below the surfaces; None if the result does not have any."""
+    found = result.stress
+    if found is None:
+        return None
+    bar = 0.0 if result.errors is None else result.errors.of("pressure_max") or 0.0
+    settings = result.problem.stress or Stress()
+    power = settings.stress_exponent / settings.weibull_slope
+    return StressNumbers(
+        bodies=tuple(_numbers(found, row, bar, power) for row in range(found.body.size)),
+        shallowest=float(found.depth[0]),
+        traction_left_out=bool(found.left_out),
+        counts_roughness=any(
+            part is not None for part in (result.heights, result.contact, result.asperities)
+        ),
+    )
+
+
+def _numbers(found: BodyStress, row: int, bar: float, power: float) -> BodyNumbers:
+    shear, dry = (peak(found.depth, one[row]) for one in (found.shear, found.shear_dry))
+    coarse = peak(found.depth, found.shear_coarse[row])
+    mises, orthogonal, dang_van, dang_van_dry = (
+        peak(found.depth, one[row])
+        for one in (found.von_mises, found.orthogonal, found.dang_van, found.dang_van_dry)
+    )
+    life, life_coarse = float(found.life[row]), float(found.life_coarse[row])
+    return BodyNumbers(
+        body=int(found.body[row]),
+        shear=shear.value,
+        shear_depth=shear.depth,
+        shear_x=float(found.shear_x[row, shear.place]),
+        shear_y=float(found.shear_y[row, shear.place]),
+        shear_error=abs(coarse.value / shear.value - 1.0) + bar,
+        shear_ratio=shear.value / dry.value,
+        von_mises=mises.value,
+        von_mises_depth=mises.depth,
+        orthogonal=orthogonal.value,
+        orthogonal_depth=orthogonal.depth,
+        dang_van=dang_van.value,
+        dang_van_ratio=dang_van.value / dang_van_dry.value if dang_van_dry.value > 0 else None,
+        life_ratio=life or None,
+        life_ratio_error=abs(life_coarse / life - 1.0) + power * bar
+        if life and life_coarse
+        else None,
+        at_shallowest=shear.place == 0,
+        traction=float(found.traction[row]),
+    )

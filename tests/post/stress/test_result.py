@@ -1,0 +1,229 @@
+"""Stress below the surfaces of a result: loads on both bodies, numbers, files, runs in time."""
+
+import csv
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import tehl
+from tehl.base.errors import InputError
+from tehl.contact.boundary_contact import ContactFilm
+from tehl.contact.stress import Stress
+from tehl.io.export import export
+from tehl.post.stress.below import stress_below
+from tehl.post.stress.loads import loads_on
+from tehl.post.stress.moving import frame_loads, moving_stress
+from tehl.post.stress.numbers import stress_numbers
+from tehl.result.fields import FilmContact, FilmShear
+from tests.fixtures_result import CASE, make_result
+from tests.fixtures_rough import PRESSURE, WAVELENGTH, make_rough
+from tests.fixtures_transient import make_transient
+
+
+def stressed(result, **settings):
+    """Return a result with its stress."""
+    return result.with_stress(**settings or {"body": "both"})
+
+
+def scaled_pressure(result, factor):
+    return replace(result, scaled=replace(result.scaled, pressure=factor * result.scaled.pressure))
+
+
+def make_dry(points, case=CASE):
+    """Return a film whose pressure is that of the dry contact."""
+    film = make_result(points, case=case)
+    x, y = film.scaled.x, film.scaled.y[:, None]
+    return replace(
+        film, scaled=replace(film.scaled, pressure=film.problem.shape.dry_pressure(x, y))
+    )
+
+
+@pytest.fixture(scope="module")
+def dry():
+    return make_dry(193)
+
+
+@pytest.fixture(scope="module")
+def found(dry):
+    return stressed(dry)
+
+
+def test_a_dry_smooth_contact_has_ratios_of_one_and_the_stresses_of_hertz(found):
+    scales, numbers = found.scales, found.stress_numbers
+    assert [one.body for one in numbers.bodies] == [1, 2]
+    for one in numbers.bodies:
+        assert one.shear / scales.hertz_pressure == pytest.approx(0.310021, rel=5e-3)
+        assert one.shear_depth / scales.half_width_x == pytest.approx(0.480865, abs=5e-3)
+        assert one.von_mises / scales.hertz_pressure == pytest.approx(0.620041, rel=5e-3)
+        assert one.shear_ratio == pytest.approx(1.0, abs=1e-6)
+        assert one.dang_van_ratio == pytest.approx(1.0, abs=1e-6)
+        assert one.life_ratio == pytest.approx(1.0, abs=1e-5)
+        assert abs(one.shear_x) < 0.05 * scales.half_width_x
+        assert one.shear_error < 5e-3
+        assert one.life_ratio_error < 0.1
+    assert numbers.remarks == ()
+
+
+@pytest.mark.parametrize("criterion", ["orthogonal-shear", "dang-van"])
+def test_the_life_falls_as_a_power_of_the_stress(dry, criterion):
+    more = stressed(scaled_pressure(dry, 1.1), criterion=criterion, stress_exponent=9.0)
+    # 1e-4: single precision, to the power of 9
+    expected = 1.1 ** (-9.0 * 0.9)
+    assert more.stress_numbers.worse.life_ratio == pytest.approx(expected, rel=1e-4)
+
+
+def test_without_stress_above_the_fatigue_limit_there_is_no_life_to_compare(dry):
+    numbers = stressed(dry, body=1, fatigue_limit=1e9).stress_numbers
+    assert numbers.worse.life_ratio is None
+    assert numbers.worse.life_ratio_error is None
+
+
+def with_traction(result, coefficient):
+    """Return a film whose shear stress is proportional to its pressure, without rolling."""
+    stress, nothing = coefficient * result.pressure, np.zeros_like(result.pressure)
+    shear = FilmShear(
+        surface_1=stress,
+        mid_film=stress,
+        surface_2=stress,
+        across=nothing,
+        thinning=nothing + 1.0,
+    )
+    return replace(result, shear=shear)
+
+
+def test_the_film_pulls_both_bodies_in_opposite_directions(dry):
+    film = with_traction(dry, -0.08)
+    pull, push = loads_on(film, 1), loads_on(film, 2)
+    np.testing.assert_allclose(pull.traction_x, -0.08 * dry.pressure)
+    np.testing.assert_allclose(push.traction_x, -pull.traction_x)
+    slope = np.gradient(dry.pressure, dry.y, axis=0)
+    np.testing.assert_allclose(
+        pull.traction_y, np.where(dry.pressure > 0, -0.5 * dry.film_thickness * slope, 0.0)
+    )
+    np.testing.assert_allclose(push.traction_y, pull.traction_y)  # both are the rolling part
+    first, second = stressed(film).stress_numbers.bodies
+    assert first.traction == pytest.approx(-0.08, rel=1e-6)
+    # mirrored but for the rolling part along y, as the film is thinner downstream
+    assert first.shear == pytest.approx(second.shear, rel=1e-4)
+    assert first.shear_x == pytest.approx(-second.shear_x)
+    assert first.shear_x < 0 < second.shear_x  # behind it, the body is compressed along x
+    assert first.life_ratio < 1.0
+
+
+def test_a_traction_that_no_oil_can_carry_is_left_out_and_said(dry):
+    numbers = stressed(with_traction(dry, -0.3), body=1).stress_numbers
+    assert numbers.worse.traction == 0.0
+    assert numbers.traction_left_out
+    assert any("left out" in remark for remark in numbers.remarks)
+
+
+def test_contact_carries_load_and_rubs_in_place_of_the_film(dry):
+    film = with_traction(dry, -0.05)
+    thin = np.where(dry.scaled.x > 0, 2e-9, film.film_thickness) / dry.scales.film_thickness
+    solid = np.where(dry.scaled.x > 0, 1e8, 0.0) * np.ones_like(dry.pressure)
+    touching = replace(
+        film,
+        scaled=replace(film.scaled, film=thin),
+        contact=FilmContact(pressure=solid, balance=np.zeros(())),
+        problem=film.problem.model_copy(
+            update={"contact_film": ContactFilm(thickness=2e-9, friction=0.12)}
+        ),
+    )
+    loads = loads_on(touching, 1)
+    np.testing.assert_allclose(loads.pressure, dry.pressure + solid)
+    inside = dry.pressure > 0
+    right = inside & (dry.scaled.x > 0)
+    left = inside & (dry.scaled.x <= 0)
+    np.testing.assert_allclose(loads.traction_x[right], -0.12 * (dry.pressure + solid)[right])
+    np.testing.assert_allclose(loads.traction_x[left], -0.05 * dry.pressure[left])
+
+
+def test_residual_stress_acts_along_the_surface(dry, found):
+    profile = ((0.0, -3e8), (1e-4, -1e8))
+    pressed = stressed(dry, body=1, residual=profile)
+    depth, added = pressed.stress.depth, pressed.stress.xx[0] - found.stress.xx[0]
+    expected = np.interp(depth, [0.0, 1e-4], [-3e8, -1e8])[:, None] + np.zeros_like(added)
+    np.testing.assert_allclose(added, expected, rtol=1e-3)
+    np.testing.assert_allclose(pressed.stress.zz[0], found.stress.zz[0], rtol=1e-5)
+    assert pressed.stress_numbers.worse.dang_van < 0.9 * found.stress_numbers.worse.dang_van
+    assert pressed.stress_numbers.worse.dang_van_ratio == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_wave_is_forgotten_with_depth_as_its_fourier_series_says():
+    rough, smooth = stressed(make_rough(), body=1), stressed(make_result(193), body=1)
+    shallowest = 2.0 * (rough.x[1] - rough.x[0])
+    assert rough.stress.depth[0] == pytest.approx(shallowest)
+    assert "twice" in rough.stress_numbers.remarks[0]
+    assert rough.stress_numbers.worse.shear_ratio > 1.0
+    middle = int(np.argmin(np.abs(rough.stress.x)))
+    here = rough.stress.depth < 0.25 * rough.scales.half_width_x
+    added = (rough.stress.zz - smooth.stress.zz)[0, here, middle]
+    reach = 2.0 * math.pi / (WAVELENGTH * rough.scales.half_width_x) * rough.stress.depth[here]
+    expected = -PRESSURE * rough.scales.hertz_pressure * (1.0 + reach) * np.exp(-reach)
+    # the ripple ends at P = 0.1 and has eight nodes per wave
+    np.testing.assert_allclose(added, expected, atol=0.04 * PRESSURE * rough.scales.hertz_pressure)
+
+
+def test_a_slender_smooth_contact_is_resolved_by_its_finer_mesh_width():
+    contact = {k: v for k, v in CASE["contact"].items() if k != "radius"}
+    case = CASE | {"contact": contact | {"radius_x": 0.005, "radius_y": 0.1}}
+    slender = stressed(make_dry(65, case), body=1)
+    steps = slender.x[1] - slender.x[0], slender.y[1] - slender.y[0]
+    assert slender.stress.depth[0] == pytest.approx(2.0 * min(steps))
+    assert slender.stress_numbers.worse.shear_ratio == pytest.approx(1.0, abs=1e-6)
+
+
+def test_the_file_keeps_the_stress_and_exports_it(found, tmp_path):
+    found.save(tmp_path / "film.nc")
+    back = tehl.load(tmp_path / "film.nc")
+    np.testing.assert_array_equal(back.stress.zx, found.stress.zx)
+    assert stress_numbers(back) == found.stress_numbers
+    block = found.summary()["stress"]
+    assert block["shear_max_pa"] == found.stress_numbers.worse.shear
+    assert block["body_2"]["von_mises_max_pa"] == found.stress_numbers.of(2).von_mises
+    assert make_result().summary()["stress"] is None
+    export(found, tmp_path / "depths.csv", what="depths")
+    export(found, tmp_path / "section.csv", what="section")
+    with (tmp_path / "depths.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == found.stress.shear.size
+    assert float(rows[3]["shear_max_pa"]) == found.stress.shear[0, 3]
+    with (tmp_path / "section.csv").open(encoding="utf-8") as file:
+        assert sum(1 for _ in file) == 1 + found.stress.zz.size
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"residual": [["20 um", "-300 MPa"], ["10 um", "0 MPa"]]}, "depths that increase"),
+        ({"body": 3}, "known are 1, 2, both"),
+        ({"depths": 4}, "a whole number from 8 to 200"),
+        ({"residual": [["20 um", "-300 nm"]]}, "stress"),
+        ({"exponent": 9}, "did you mean"),
+    ],
+)
+def test_mistakes_of_the_table_name_key_and_remedy(settings, words):
+    with pytest.raises(InputError, match=words):
+        tehl.ContactProblem(**CASE, stress=settings)
+
+
+def test_a_passing_dent_is_followed_in_time():
+    run = make_transient(points=65)
+    settings = Stress(depths=10)
+    seen = moving_stress(run, 1, settings)
+    assert seen.plane.shape == (run.frames.step.size, 10, seen.x.size)
+    np.testing.assert_array_equal(seen.time, run.history.time[run.frames.step])
+    steady = stress_below(run.start, settings)
+    assert seen.depth[0] >= steady.depth[0]
+    assert seen.shear.max() == pytest.approx(float(steady.shear.max()), rel=0.5)
+    loads = frame_loads(run, 0, 1)
+    traction = run.history.traction[run.frames.step[0]]
+    part = loads.traction_x.sum() / loads.pressure.sum()
+    assert abs(traction) <= 0.1
+    assert part == pytest.approx(traction, abs=2e-3)
+    with pytest.raises(InputError, match="body = 3"):
+        moving_stress(run, 3)
+    with pytest.raises(InputError, match=r"transient\.frames"):
+        moving_stress(make_transient(frames=False))
