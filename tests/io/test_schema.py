@@ -16,7 +16,7 @@ from tehl.io.case import case_schema
 def test_the_schema_has_every_table_and_forbids_others():
     schema = json.loads(json.dumps(case_schema()))
     tables = {"title", "contact", "surface_1", "surface_2", "lubricant", "thermal", "transient"}
-    tables |= {"supply", "asperities", "contact_film", "cavitation", "stress"}
+    tables |= {"supply", "asperities", "contact_film", "cavitation", "stress", "dynamics"}
     assert set(schema["properties"]) == tables | {"numerics"}
     assert schema["additionalProperties"] is False
     named = {choice.get("type") for choice in schema["properties"]["lubricant"]["anyOf"]}

@@ -34,6 +34,7 @@ _PREFIXED: dict[str, tuple[float, Dimension]] = {
     "Pa": (1.0, _PRESSURE),
     "J": (1.0, _ENERGY),
     "W": (1.0, _POWER),
+    "Hz": (1.0, (0, 0, -1, 0)),
     "Pas": (1.0, (-1, 1, -1, 0)),
 }
 _UNITS: dict[str, tuple[float, Dimension]] = {
@@ -294,6 +295,7 @@ def _kind(dimension: Dimension, unit: str) -> str:
 Time = Annotated[float, Quantity("a time", "s", '"2 ms"')]
 Duration = Annotated[float, Quantity("a time", "s", '"10 min"')]
 Instant = Annotated[float, Quantity("a time", "s", '"2 ms"', "non-negative")]
+Frequency = Annotated[float, Quantity("a frequency", "Hz", '"500 Hz"', "non-negative")]
 Length = Annotated[float, Quantity("a length", "m", '"20 mm"')]
 BoundaryFilm = Annotated[float, Quantity("a length", "m", '"5 nm"')]
 Height = Annotated[float, Quantity("a length", "m", '"0.05 um"', "non-negative")]

@@ -19,6 +19,7 @@ from tehl.base.units import (
 )
 from tehl.contact.bodies import Motion, Radii, reduced_radii
 from tehl.contact.boundary_contact import ContactFilm
+from tehl.contact.dynamics import Dynamics
 from tehl.contact.heat import FilmEnergy, Thermal
 from tehl.contact.hertz import HertzContact, ellipticity
 from tehl.contact.materials import NamedSolid, reduced_modulus
@@ -205,6 +206,8 @@ class PointContact(Table):
     """What happens to the oil in cavities; None conserves it in starved contacts only."""
     stress: Stress | None = None
     """Settings of the stress below the surfaces; None does not compute it."""
+    dynamics: Dynamics | None = None
+    """Frequencies of the stiffness and damping of the film; None does not compute them."""
 
     @property
     def radii(self) -> Radii:

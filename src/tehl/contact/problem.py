@@ -34,6 +34,11 @@ THERMAL_PROPERTIES = {
 }
 COLDEST_TEMPERATURE, HOTTEST_TEMPERATURE = 200.0, 800.0
 """Limits of the temperature of an oil or a solid [K]."""
+SOLID_PART = (
+    "solid contact adds a stiffness and a hysteresis of its own, and only those of the oil are "
+    "computed"
+)
+"""Why stiffness and damping are not computed where surfaces touch."""
 LARGEST_RATIO = 1e3
 """Largest ratio of the reduced radii, either way: beyond it the contact is a line contact."""
 
@@ -65,6 +70,7 @@ def check(problem: PointContact) -> None:
     check_supply(problem)
     check_asperities(problem)
     check_contact_film(problem)
+    check_dynamics(problem)
     if problem.contact.moes_speed is not None and not problem.pressure_coefficient > 0:
         raise ValueError(
             "contact.moes_speed does not determine a speed: lubricant.viscosity has no pressure "
@@ -250,6 +256,19 @@ def check_contact_film(problem: PointContact) -> None:
             f"contact_film.thickness = {film.thickness:g} m is not a boundary film: it must be "
             f'between {THINNEST_BOUNDARY_FILM:g} and {THICKEST_BOUNDARY_FILM:g} m, such as "5 nm"'
         )
+
+
+def check_dynamics(problem: PointContact) -> None:
+    """Check that the film has one steady state, which oil alone carries."""
+    excluded = {
+        "transient": (problem.transient is not None, "a transient run has no steady state"),
+        "supply.passes": (problem.has_passes, "each pass has another film"),
+        "asperities": (problem.asperities is not None, SOLID_PART),
+        "contact_film": (problem.contact_film is not None, SOLID_PART),
+    }
+    for name, (is_stated, why) in excluded.items():
+        if problem.dynamics is not None and is_stated:
+            raise ValueError(f"dynamics and {name} exclude each other: {why}; leave out one")
 
 
 def check_radii(problem: PointContact) -> None:

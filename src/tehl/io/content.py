@@ -22,6 +22,7 @@ from tehl.result.fields import (
     Fields,
     FilmAsperities,
     FilmContact,
+    FilmDynamics,
     FilmHeat,
     FilmOil,
     FilmShear,
@@ -54,8 +55,8 @@ class Variable:
 
 
 _AXES = {"x": "X", "y": "Y", "zeta": "zeta", "time": "time"}
-_AXES |= {"frame": "frame_step", "bar": "bar_time", "pass": "pass"}
 _AXES |= {"body": "stress_body", "depth": "stress_depth", "stress_x": "stress_x"}
+_AXES |= {"frame": "frame_step", "bar": "bar_time", "pass": "pass", "frequency": "frequency"}
 """Array that gives the size of each dimension."""
 _PARTS: dict[str, tuple[type, Table]] = {
     "heights": (SurfaceHeights, tables.HEIGHTS),
@@ -63,6 +64,7 @@ _PARTS: dict[str, tuple[type, Table]] = {
     "contact": (FilmContact, tables.CONTACT),
     "oil": (FilmOil, tables.OIL),
     "passes": (PassHistory, tables.PASSES),
+    "dynamics": (FilmDynamics, tables.DYNAMICS),
     "shear": (FilmShear, tables.SHEAR),
     "stress": (BodyStress, tables.STRESS),
 }

@@ -125,6 +125,21 @@ PASSES = _table(
     ("leaving", "pass_oil_leaving", "m", "oil after the contact, on y = 0, both surfaces"),
     ("inlet_distance", "pass_inlet_distance", "m", "from the meniscus to the Hertz contact, y = 0"),
 )
+DYNAMICS = _table(
+    "frequency",
+    ("frequency", "frequency", "Hz", "frequency of a small harmonic change"),
+    ("stiffness", "stiffness", "N/m", "load by approach, in phase"),
+    ("damping", "damping", "N s/m", "load by approach, a quarter period ahead, over omega"),
+    ("stiffness_error", "stiffness_error", "N/m", "error bar of the stiffness"),
+    ("damping_error", "damping_error", "N s/m", "error bar of the damping"),
+    ("amplitude", "amplitude", "m", "approach at which the cavity would move by 0.1 a_x"),
+    ("load_by_speed", "load_by_speed", "N s/m", "load by entrainment speed, in phase"),
+    ("load_by_acceleration", "load_by_acceleration", "N s^2/m", "the same ahead, over omega"),
+    ("rolling_stiffness", "rolling_stiffness", "N/m", "rolling force by approach, in phase"),
+    ("rolling_damping", "rolling_damping", "N s/m", "the same ahead, over omega"),
+    ("rolling_by_speed", "rolling_by_speed", "N s/m", "rolling force by entrainment speed"),
+    ("rolling_by_acceleration", "rolling_by_acceleration", "N s^2/m", "the same, over omega"),
+)
 HEAT = (
     *_table(
         "zeta",
@@ -202,6 +217,6 @@ BARS = _table(
 
 COORDINATES = (
     *("x", "y", "X", "Y", "zeta", "cycle", "time", "frame_time", "bar_time"),
-    *("stress_body", "stress_depth", "stress_x"),
+    *("stress_body", "stress_depth", "stress_x", "frequency"),
 )
 """Arrays that are coordinates of a dataset."""

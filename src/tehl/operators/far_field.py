@@ -13,6 +13,7 @@ is exact for the second term.
 """
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import solve_banded
@@ -41,13 +42,7 @@ def angular_pressure(radius_ratio: float) -> tuple[Array, Array]:
     radius_ratio : float
         D = R_x / R_y.
     """
-    angle = np.linspace(0.0, np.pi, ANGLES)
-    step = angle[1]
-    conductance = (np.cos(angle) ** 2 + radius_ratio * np.sin(angle) ** 2) ** 3
-    between = 0.5 * (conductance[1:] + conductance[:-1]) / step**2
-    to_next, to_last = np.append(between, 0.0), np.append(0.0, between)
-    to_next[0] *= 2.0  # both ends are symmetric
-    to_last[-1] *= 2.0
+    angle, to_last, to_next, conductance = _angular_operator(radius_ratio)
     diagonal = -(to_next + to_last) - 9.0 * conductance
     source = np.cos(angle)
     wet = angle > 0.5 * np.pi
@@ -60,6 +55,30 @@ def angular_pressure(radius_ratio: float) -> tuple[Array, Array]:
     return angle, np.where(wet, np.maximum(f, 0.0), 0.0)
 
 
+def angular_squeeze(radius_ratio: float) -> Array:
+    """Return q at the angles of `angular_pressure`, zero where the oil is cavitated, (n,).
+
+    Where the gap opens at a rate dH/dt the pressure changes by P = -lambda q(a) dH/dt / r^4, with
+    (g^3 q')' - 8 g^3 q = -8.
+    """
+    _, to_last, to_next, conductance = _angular_operator(radius_ratio)
+    diagonal = -(to_next + to_last) - 8.0 * conductance
+    wet = angular_pressure(radius_ratio)[1] > 0.0
+    return _solve(to_last, diagonal, to_next, np.full(ANGLES, -8.0), wet)
+
+
+def _angular_operator(radius_ratio: float) -> tuple[Array, Array, Array, Array]:
+    """Return the angles, both neighbours in (g^3 f')' and g^3, (n,) each."""
+    angle = np.linspace(0.0, np.pi, ANGLES)
+    step = angle[1]
+    conductance = (np.cos(angle) ** 2 + radius_ratio * np.sin(angle) ** 2) ** 3
+    between = 0.5 * (conductance[1:] + conductance[:-1]) / step**2
+    to_next, to_last = np.append(between, 0.0), np.append(0.0, between)
+    to_next[0] *= 2.0  # both ends are symmetric
+    to_last[-1] *= 2.0
+    return angle, to_last, to_next, conductance
+
+
 def _solve(to_last: Array, diagonal: Array, to_next: Array, source: Array, wet: BoolArray) -> Array:
     """Return f of the tridiagonal system at the ``wet`` nodes, zero elsewhere."""
     band = np.zeros((3, diagonal.size))
@@ -68,6 +87,18 @@ def _solve(to_last: Array, diagonal: Array, to_next: Array, source: Array, wet: 
     band[2, :-1] = np.where(wet, to_last, 0.0)[1:]
     f: Array = solve_banded((1, 1), band, np.where(wet, source, 0.0))
     return f
+
+
+class EdgeSlopes(NamedTuple):
+    """Change of the pressure on the edges, (ny, nx), and of the load outside.
+
+    By that of the film and by its rate (`angular_squeeze`).
+    """
+
+    by_film: Array
+    by_rate: Array
+    load_by_film: float
+    load_by_rate: float
 
 
 class FarField:
@@ -91,12 +122,16 @@ class FarField:
         if not grid.mirror:
             edges.append((0, whole))
         radius, here = np.hypot(x, y), np.abs(np.arctan2(y, x))
-        # each edge with 2 lambda r g^2 f at its nodes
+        # each edge with 2 lambda r g^2 f and lambda g^2 q / 4 at its nodes
         self.edges: list[tuple[Edge, Array]] = []
+        self.squeezed: list[Array] = []
+        squeeze = groups.lambda_bar * angular_squeeze(ratio)
         for edge in edges:
             at = here[edge]
-            shape = np.interp(at, angle, f) * (np.cos(at) ** 2 + ratio * np.sin(at) ** 2) ** 2
-            self.edges.append((edge, 2.0 * groups.lambda_bar * radius[edge] * shape))
+            shape = (np.cos(at) ** 2 + ratio * np.sin(at) ** 2) ** 2
+            wedge = np.interp(at, angle, f) * shape
+            self.edges.append((edge, 2.0 * groups.lambda_bar * radius[edge] * wedge))
+            self.squeezed.append(0.25 * shape * np.interp(at, angle, squeeze))
         # the load outside, ray by ray
         cosine, sine = np.cos(angle), np.maximum(np.sin(angle), 1e-12)
         self.growth = cosine**2 + ratio * sine**2
@@ -108,6 +143,7 @@ class FarField:
         width = np.full(ANGLES, angle[1])
         width[[0, -1]] *= 0.5
         self.weight = 8.0 * groups.lambda_bar / stretch * f * width
+        self.squeeze_weight = 0.25 * squeeze * self.growth * width / stretch
 
     def set_edges(self, pressure: Array, film: Array) -> None:
         """Set the pressure on the edges for a film.
@@ -138,3 +174,20 @@ class FarField:
         s, r = np.sqrt(2.0 * base / self.growth), self.radius
         rays = np.arctan2(s, r) / (2.0 * s) + 0.5 * r / (r**2 + s**2)
         return float((self.weight * rays).sum())
+
+    def slopes(self, film: Array, gap: Array) -> EdgeSlopes:
+        """Return the changes by a uniform change of a film and by its rate, as of `load`."""
+        by_film, by_rate = np.zeros_like(film), np.zeros_like(film)
+        for (edge, amplitude), squeezed in zip(self.edges, self.squeezed, strict=True):
+            by_film[edge] = -2.0 * amplitude / film[edge] ** 3
+            by_rate[edge] = -squeezed / film[edge] ** 2
+        base = max(float(np.mean(film[:, 0] - gap[:, 0])), 1e-9)
+        outside = base + 0.5 * self.growth * self.radius**2
+        step = 1e-4 * base
+        higher, lower = self.load(film + step, gap), self.load(film - step, gap)
+        return EdgeSlopes(
+            by_film=by_film,
+            by_rate=by_rate,
+            load_by_film=(higher - lower) / (2.0 * step),
+            load_by_rate=-float((self.squeeze_weight / outside).sum()),
+        )

@@ -16,7 +16,7 @@ from scipy.sparse import csr_matrix, diags, kron
 from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import Stencil
+from tehl.kernels.reynolds import MARK_THIRD_ORDER, Stencil
 
 
 class Neighbours(NamedTuple):
@@ -33,6 +33,38 @@ class Neighbours(NamedTuple):
     south: csr_matrix
     upstream: csr_matrix
     open_west: Array | float = 1.0
+
+
+class Cavity(NamedTuple):
+    """Partly filled nodes of a film that conserves oil, (n,) each.
+
+    ``full`` is one where the gap is full, ``ahead`` one at partly filled nodes with film behind
+    them: no pressure flow enters them, as the film begins there (docs/theory/dynamics.md).
+    """
+
+    full: Array
+    ahead: Array
+
+    @classmethod
+    def of(cls, film: Film) -> "Cavity":
+        """Return the partly filled nodes of a film."""
+        partial = film.partial > 0
+        behind = np.cumsum(film.p[:, ::-1] > 0.0, axis=1)[:, ::-1] > 0
+        return cls(*(one.astype(float).ravel() for one in (~partial, partial & behind)))
+
+    def open_faces(self, there: csr_matrix, way: int) -> Array:
+        """Return one at the faces to ``there`` with pressure flow, zero where the film begins.
+
+        Parameters
+        ----------
+        there : csr_matrix
+            Selects the neighbours.
+        way : int
+            1 to the east, -1 to the west, 0 along y.
+        """
+        here = self.ahead if way >= 0 else 0.0 * self.ahead
+        beyond = there @ self.ahead if way <= 0 else 0.0 * self.ahead
+        return np.asarray((1.0 - here) * (1.0 - beyond))
 
 
 def neighbour(
@@ -87,6 +119,8 @@ def neighbours_of(grid: Grid, stencil: Stencil) -> Neighbours:
         ),
         neighbour(grid, others, 0, 0, stencil.w0),
     )
+    if stencil.third > 0.0:
+        upstream = upstream + _third_difference(grid, stencil, inner)
     return Neighbours(
         here=neighbour(grid, inner, 0, 0),
         east=neighbour(grid, inner, 0, 1),
@@ -97,8 +131,27 @@ def neighbours_of(grid: Grid, stencil: Stencil) -> Neighbours:
     )
 
 
+def _third_difference(grid: Grid, stencil: Stencil, inner: BoolArray) -> csr_matrix:
+    """Return what makes the wedge one of third order: differences of t (m(i+1) - 2 m(i) + m(i-1)).
+
+    ``t`` is the weight at the face east of node i; the first face of a line has none.
+    """
+    weight = np.full(grid.shape, stencil.third)
+    weight[:, stencil.fore :] *= 0.5
+    weight[:, 0] = 0.0
+    every = np.ones(grid.shape, bool)
+    here, west = neighbour(grid, every, 0, 0), neighbour(grid, every, 0, -1)
+    bent = rows(weight.ravel()) @ (neighbour(grid, every, 0, 1) - 2.0 * here + west)
+    return csr_matrix(neighbour(grid, inner, 0, 0) @ (here - west) @ bent)
+
+
 def jacobian(
-    film: Film, stencil: Stencil, neighbours: Neighbours, by_pressure: Array, by_film: Array
+    film: Film,
+    stencil: Stencil,
+    neighbours: Neighbours,
+    by_pressure: Array,
+    by_film: Array,
+    cavity: Cavity | None = None,
 ) -> tuple[csr_matrix, csr_matrix]:
     """Return L_P and L_H, the derivatives of L by the pressures and by the films of all nodes.
 
@@ -112,22 +165,103 @@ def jacobian(
         Of `neighbours_of`.
     by_pressure, by_film : (ny, nx) array
         Derivatives of the conductance eps.
+    cavity : Cavity or None
+        Where the gap is partly filled: there the unknown is the oil instead of the pressure.
     """
-    n, (p, eps_x, eps_y) = neighbours, (field.ravel() for field in (film.p, film.eps_x, film.eps_y))
-    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
-    sides = ((n.east, half_x, eps_x), (n.west, half_x * n.open_west, eps_x),
-             (n.north, half_y, eps_y), (n.south, half_y, eps_y))  # fmt: skip
+    n, p = neighbours, film.p.ravel()
     flow, opening = csr_matrix(n.here.shape), csr_matrix(n.here.shape)
     # face flow (eps_here + eps_there)/2 (P_there - P_here): derivatives by P, then by eps
-    for there, half, conductance in sides:
+    for there, half, eps, way in _sides(film, stencil, n):
         step = there - n.here
-        flow = flow + rows(half * ((there + n.here) @ conductance)) @ step
-        opening = opening + rows(half * (step @ p)) @ (there + n.here)
+        weight = half if cavity is None else half * cavity.open_faces(there, way)
+        flow = flow + rows(weight * _both(stencil, n.here @ eps, there @ eps, way)) @ step
+        pressed = weight * (step @ p)
+        if stencil.third == 0.0:
+            opening = opening + rows(pressed) @ (there + n.here)
+        else:  # of the secant conductance: the tangent one differs where the film thins
+            here, beyond = _slopes(n.here @ film.eps.ravel(), there @ film.eps.ravel(), way)
+            opening = opening + rows(pressed * beyond) @ there + rows(pressed * here) @ n.here
     # wedge rho H: rho by the film, drho/dP H by the pressure
     thicker, denser = film.rho.ravel(), (film.drho * film.h).ravel()
-    pressed = flow + opening @ rows(by_pressure.ravel()) - n.upstream @ rows(denser)
+    slope = by_pressure.ravel()
+    if cavity is not None:
+        flow, slope, thicker = flow @ rows(cavity.full), slope * cavity.full, thicker * cavity.full
+        denser = np.where(cavity.full > 0.0, denser, 1.0)
+    pressed = flow + opening @ rows(slope) - n.upstream @ rows(denser)
     opened = opening @ rows(by_film.ravel()) - n.upstream @ rows(thicker)
     return csr_matrix(pressed), csr_matrix(opened)
+
+
+def _sides(
+    film: Film, stencil: Stencil, n: Neighbours
+) -> tuple[tuple[csr_matrix, Array | float, Array, int], ...]:
+    """Return the neighbour, weight, conductance and way along x of the four faces of a cell."""
+    eps_x, eps_y = film.eps_x.ravel(), film.eps_y.ravel()
+    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
+    return ((n.east, half_x, eps_x, 1), (n.west, half_x * n.open_west, eps_x, -1),
+            (n.north, half_y, eps_y, 0), (n.south, half_y, eps_y, 0))  # fmt: skip
+
+
+def _both(stencil: Stencil, here: Array, there: Array, way: int) -> Array:
+    """Return twice the conductance of faces, as `tehl.kernels.reynolds` has it."""
+    if stencil.third == 0.0:
+        return there + here
+    geometric = 2.0 * np.sqrt(here * there)
+    rises = way * (there - here) > 0.0
+    return np.where(rises, geometric + (here + there - geometric) / 3.0, geometric)
+
+
+def _slopes(here: Array, there: Array, way: int) -> tuple[Array, Array]:
+    """Return the derivatives of twice a conductance of third order by those of both nodes."""
+    rises = way * (there - here) > 0.0
+    inside = (here > 0.0) & (there > 0.0)  # rows of edge nodes are zero
+    ratio = np.sqrt(np.where(inside, there, 1.0) / np.where(inside, here, 1.0))
+    first, second = ratio, 1.0 / ratio
+    return (
+        np.where(rises, (2.0 * first + 1.0) / 3.0, first),
+        np.where(rises, (2.0 * second + 1.0) / 3.0, second),
+    )
+
+
+def flux_difference(
+    film: Film, stencil: Stencil, grid: Grid, onward: csr_matrix | None = None
+) -> csr_matrix:
+    """Return the matrix of the wedge by fluxes of oil through cell faces, over the oil at nodes.
+
+    A full node passes on 3/2 m(i) - 1/2 m(i-1) of its mass m where its order is two, with a third
+    of the second difference where it is three, else m(i), as a partly filled one does; into the
+    second node of a line flows their mean if the wedge is of second order.
+
+    Parameters
+    ----------
+    film : Film
+        With ``partial`` and ``second``.
+    stencil : Stencil
+        Weights of the operator.
+    grid : Grid
+        On mirrored grids the row y = 0 is an inner one.
+    onward : csr_matrix or None
+        Selects the node whose flux each node passes on; itself if None.
+    """
+    every = np.ones(grid.shape, bool)
+    west, here = neighbour(grid, every, 0, -1), rows(np.ones(every.size))
+    east = neighbour(grid, every, 0, 1)
+    marks = np.where(film.partial > 0, 0, film.second).ravel()
+    passed = here + rows(np.where(marks > 0, 0.5, 0.0)) @ (here - west)
+    if stencil.third > 0.0:
+        third = np.broadcast_to(stencil.third * grid.dx, grid.shape).copy()
+        third[:, stencil.fore :] *= 0.5
+        third = np.where(marks == MARK_THIRD_ORDER, third.ravel(), 0.0)
+        passed = passed + rows(third) @ (east - 2.0 * here + west)
+    if stencil.w2 > 0.0:
+        first = np.zeros(grid.shape)
+        first[:, 0] = (film.partial[:, 0] == 0) & (film.partial[:, 1] == 0)
+        passed = rows(1.0 - first.ravel()) @ passed + rows(0.5 * first.ravel()) @ (here + east)
+    inner = np.zeros(grid.shape)
+    inner[(0 if grid.mirror else 1) : -1, 1:-1] = 1.0 / grid.dx
+    if onward is not None:
+        passed = onward @ passed
+    return csr_matrix(rows(inner.ravel()) @ (here - west) @ passed)
 
 
 def rows(weights: Array) -> csr_matrix:

@@ -15,6 +15,7 @@ from tehl.base.atomic import check_folder, replacing
 from tehl.base.errors import InputError
 from tehl.plots.animation import animate
 from tehl.plots.convergence import residual_history
+from tehl.plots.dynamics import dynamics_curves
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
 from tehl.plots.maps import (
@@ -145,7 +146,7 @@ def pictures_of(result: Solution | TransientSolution, smooth: Solution | None = 
 
 
 def _of_oil(result: Solution) -> Pictures:
-    """Return the functions that draw the oil of a starved contact, by name."""
+    """Return the functions that draw oil, contact and dynamics, by name."""
     found: Pictures = {}
     if load_sharing(result) is not None:  # none if the run diverged
         found["asperities"] = asperity_map
@@ -155,6 +156,8 @@ def _of_oil(result: Solution) -> Pictures:
         found["oil"] = oil_map
     if result.passes is not None:
         found["passes"] = pass_history
+    if result.dynamics is not None:
+        found["dynamics"] = dynamics_curves
     return found
 
 

@@ -19,6 +19,8 @@ UNITS = {
     "kelvin": (1.0, " K"),
     "newton": (1.0, " N"),
     "watt": (1.0, " W"),
+    "newton_per_um": (1e-6, " N/µm"),
+    "newton_second_per_m": (1.0, " N s/m"),
     "share": (100.0, " %"),
     "plain": (1.0, ""),
 }
@@ -31,6 +33,8 @@ FILTERS = {
     "K": "kelvin",
     "°C": "celsius",
     "W": "watt",
+    "N/um": "newton_per_um",
+    "N s/m": "newton_second_per_m",
     "%": "share",
 }
 """Names of the filters by the units of `tehl.result.quantities`."""

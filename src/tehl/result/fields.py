@@ -212,6 +212,48 @@ class FilmOil(_ReadOnly):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class FilmDynamics(_ReadOnly):
+    """Small harmonic changes of load and rolling force, linear in those of approach and speed.
+
+    Read-only arrays (n,) over frequency. A change of the load by the approach is k + i omega c
+    times that approach; one by the speed is b + i omega j times that change of speed. The rolling
+    force is that of each surface, the integral of h/2 dp/dx.
+    """
+
+    frequency: Array
+    """The first one is zero [Hz]."""
+    stiffness: Array
+    damping: Array
+    """k [N/m] and c [N s/m] of the load by the approach."""
+    stiffness_error: Array
+    damping_error: Array
+    """Error bars of both [N/m], [N s/m], by a grid of twice the mesh width."""
+    amplitude: Array
+    """Amplitude of the approach at which the cavity would move by a tenth of a half-width [m]."""
+    load_by_speed: Array
+    load_by_acceleration: Array
+    """b [N s/m] and j [N s^2/m] of the load by the entrainment speed."""
+    rolling_stiffness: Array
+    rolling_damping: Array
+    """k [N/m] and c [N s/m] of the rolling force by the approach."""
+    rolling_by_speed: Array
+    rolling_by_acceleration: Array
+    """b [N s/m] and j [N s^2/m] of the rolling force by the entrainment speed."""
+
+    @property
+    def impedance(self) -> Array:
+        """Return k + i omega c of the load by the approach, complex [N/m]."""
+        return np.asarray(self.stiffness + 2j * np.pi * self.frequency * self.damping)
+
+    @property
+    def rows(self) -> list[dict[str, float]]:
+        """Return the numbers at each frequency."""
+        names = [one.name for one in fields(self)]
+        columns = (getattr(self, name).tolist() for name in names)
+        return [dict(zip(names, row, strict=True)) for row in zip(*columns, strict=True)]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class PassHistory(_ReadOnly):
     """A starved contact pass after pass; read-only arrays (n,)."""
 

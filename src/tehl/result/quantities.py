@@ -6,7 +6,7 @@ Summary, JSON, tables of studies, lists of contacts, reports, pictures and the l
 
 import math
 from collections.abc import Callable, Iterator
-from operator import attrgetter
+from operator import attrgetter, itemgetter
 from typing import Any
 
 from tehl.result.derived import (
@@ -21,7 +21,7 @@ from tehl.result.derived import (
     share,
     share_error,
 )
-from tehl.result.quantity import Quantity
+from tehl.result.quantity import Quantity, without_unit
 from tehl.result.stress_quantities import stress_quantities
 
 _EVERYWHERE = "list notebook line text report page"
@@ -84,6 +84,14 @@ def _last(name: str) -> Callable[[Any], Any]:
     return lambda found: getattr(found.solution.history[-1], name) if found.finest else None
 
 
+DYNAMICS = (
+    "frequency_hz stiffness_n_per_m damping_n_s_per_m stiffness_error_n_per_m "
+    "damping_error_n_s_per_m amplitude_m load_by_speed_n_s_per_m "
+    "load_by_acceleration_n_s2_per_m "
+    "rolling_stiffness_n_per_m rolling_damping_n_s_per_m rolling_by_speed_n_s_per_m "
+    "rolling_by_acceleration_n_s2_per_m"
+)
+"""Keys of a row over frequency: fields of `tehl.result.fields.FilmDynamics` with their units."""
 QUANTITIES: tuple[Quantity, ...] = (
     Quantity("laws.viscosity", lambda problem: problem.lubricant.viscosity.law),
     Quantity(
@@ -409,6 +417,30 @@ QUANTITIES: tuple[Quantity, ...] = (
     ),
     *_plain("starvation", "entering_m leaving_m leaving_each_m balance"),
     *stress_quantities(),
+    Quantity(
+        "dynamics.stiffness_n_per_m",
+        lambda film: film.stiffness[0],
+        error=lambda numbers: numbers.get("dynamics.stiffness_error"),
+        symbol="k",
+        unit="N/um",
+        words=_words("stiffness", "axis list notebook", report="stiffness of the film, static"),
+    ),
+    Quantity(
+        "dynamics.damping_n_s_per_m",
+        lambda film: film.damping[0],
+        error=lambda numbers: numbers.get("dynamics.damping_error"),
+        symbol="c",
+        unit="N s/m",
+        words=_words("damping", "axis list notebook", report="damping of slow vibrations"),
+    ),
+    Quantity(
+        "dynamics.stiffness_error", lambda film: film.stiffness_error[0] / abs(film.stiffness[0])
+    ),
+    Quantity("dynamics.damping_error", lambda film: film.damping_error[0] / abs(film.damping[0])),
+    *(
+        Quantity(f"dynamics.over_frequency.{key}", itemgetter(without_unit(key)))
+        for key in DYNAMICS.split()
+    ),
     Quantity("convergence.cycles", lambda found: len(found.finest)),
     Quantity("convergence.residual", _last("residual")),
     Quantity("convergence.change", _last("change")),

@@ -16,11 +16,18 @@ UNITS = {
     "K": (1.0, 0.0),
     "°C": (1.0, -273.15),
     "W": (1.0, 0.0),
+    "N/um": (1e-6, 0.0),
+    "N s/m": (1.0, 0.0),
     "%": (100.0, 0.0),
 }
 """Units in which people read quantities: factor from SI, and what is added."""
-SI = {"m2": "m^2", "m": "m", "pa": "Pa", "k": "K", "w": "W", "rad": "rad"}
-"""SI units by the endings of keys."""
+SI = {
+    "n_per_m": "N/m",
+    "n_s_per_m": "N s/m",
+    "n_s2_per_m": "N s^2/m",
+    **{"m2": "m^2", "m": "m", "pa": "Pa", "k": "K", "w": "W", "rad": "rad", "hz": "Hz"},
+}
+"""SI units by the endings of keys, of which the first counts."""
 
 
 class Numbers(Protocol):
@@ -93,8 +100,12 @@ class Quantity:
 
 def without_unit(key: str) -> str:
     """Return a key without the SI unit that it ends in."""
-    stem, underscore, ending = key.rpartition("_")
-    return stem if underscore and ending in SI else key
+    return key.removesuffix(f"_{ending_of(key)}")
+
+
+def ending_of(key: str) -> str:
+    """Return the ending of a key that is its SI unit; empty without one."""
+    return next((ending for ending in SI if key.endswith(f"_{ending}")), "")
 
 
 FILMS = {"film_central": "central", "film_minimum": "minimum"}

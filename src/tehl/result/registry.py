@@ -7,7 +7,7 @@ from typing import Any
 from tehl.result import quantities
 from tehl.result.quantity import FILMS, Certified, Quantity
 
-LISTS = ("roughness.waves", "roughness.film_quantiles")
+LISTS = ("roughness.waves", "roughness.film_quantiles", "dynamics.over_frequency")
 """Blocks that are lists of blocks."""
 OWNERS: dict[str, Callable[[Any], Any]] = {
     "laws": lambda found: found.solution.problem,
@@ -34,6 +34,10 @@ OWNERS: dict[str, Callable[[Any], Any]] = {
     "stress": lambda found: found.stress,
     "stress.body_1": lambda found: found.stress and found.stress.of(1),
     "stress.body_2": lambda found: found.stress and found.stress.of(2),
+    "dynamics": lambda found: found.solution.dynamics,
+    "dynamics.over_frequency": lambda found: (
+        found.solution.dynamics and found.solution.dynamics.rows
+    ),
     "convergence": lambda found: found,
     "errors": lambda found: found.solution.errors,
     "cost": lambda found: found.solution,

@@ -17,6 +17,7 @@ from tehl.result.fields import (
     Fields,
     FilmAsperities,
     FilmContact,
+    FilmDynamics,
     FilmHeat,
     FilmOil,
     FilmShear,
@@ -207,6 +208,8 @@ class Extras:
     """Earlier passes of the same surfaces and this one; None of a single film."""
     stress: BodyStress | None = None
     """Stress below the surfaces; None if the case does not ask for it."""
+    dynamics: FilmDynamics | None = None
+    """Stiffness and damping; None unless the case states ``[dynamics]``."""
     resolution: Resolution | None = None
     """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
 
@@ -287,6 +290,7 @@ class Solution:
     supplied = _Of[Supplied | None]("extras")
     passes = _Of[PassHistory | None]("extras")
     stress = _Of[BodyStress | None]("extras")
+    dynamics = _Of[FilmDynamics | None]("extras")
     resolution = _Of[Resolution | None]("extras")
 
     @property

@@ -47,6 +47,7 @@ from tehl.solver.judging.outputs import (
 from tehl.solver.judging.remedy import LEAST_SECONDS, Reached, solved_on_other_nodes, working_hint
 from tehl.solver.judging.verdict import TOO_COARSE, touching, verdict
 from tehl.solver.monitor import SILENT, Deadline, Monitor, Recorder, TimeIsOverError
+from tehl.solver.physics.dynamics import film_dynamics
 
 NO_MEMORY = "memory"
 GRID_CAUSES = (
@@ -241,8 +242,14 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
         known = [one.run.reached_before(last=one.status.cause == NO_MEMORY) for one in attempts]
         films = [film for film in known if film is not None]
         best = replace(best, reached_before=min(films, key=lambda film: film[1], default=None))
-    result = _result(best, options, tuple(history.reports), clock.cost())
-    return best, result.but(supplied=_supplied(best.run.finest, flooded))
+    supplied = _supplied(best.run.finest, flooded)
+    result = _result(best, options, tuple(history.reports), clock.cost()).but(supplied=supplied)
+    if problem.dynamics is None or not best.status.converged:
+        return best, result
+    # last, as it overwrites the coarser levels
+    monitor.message("stiffness and damping")
+    dynamics = film_dynamics(best.run, problem.dynamics)
+    return best, result.but(dynamics=dynamics, cost=clock.cost())
 
 
 def flooded_film(
@@ -266,7 +273,7 @@ def flooded_film(
     """
     if problem.supply is None:
         return None
-    changes = {"supply": None, "cavitation": None, "transient": None}
+    changes = dict.fromkeys(("supply", "cavitation", "transient", "dynamics"))
     monitor.message("the fully flooded contact")
     same = problem.model_copy(update=changes)
     options = options.model_copy(update={"domain": "auto", "edges": "auto"})

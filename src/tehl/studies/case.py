@@ -14,7 +14,7 @@ from tehl.api.results import Result
 from tehl.base.version import SOLVER_VERSION, __version__
 from tehl.contact.options import Options
 from tehl.io.case import with_settings
-from tehl.result.quantity import SI
+from tehl.result.quantity import SI, ending_of
 from tehl.result.solution import Cost, Hint, Settings
 
 Label = float | str
@@ -22,7 +22,6 @@ Scalar = float | int | str | bool | None
 
 _SOLVED = ("converged", "not_converged", "diverged", "stalled")
 """Statuses that come with fields."""
-_UNITS = SI | {"seconds": "s"}
 """Unit by the last part of the name of a number."""
 _NOT_NUMBERS = ("title", "status", "cause", "message", "hint", "settings")
 """Keys of a summary that a row holds elsewhere."""
@@ -178,5 +177,4 @@ def unit_of(name: str) -> str:
     parts = [part for part in name.split(".") if not part.isdigit()]
     if parts[0] == "uncertainty" and parts[-1] in _PARTS_OF_ESTIMATES:
         parts.pop()
-    _, underscore, ending = parts[-1].rpartition("_")
-    return _UNITS.get(ending, "1") if underscore else "1"
+    return "s" if parts[-1].endswith("_seconds") else SI.get(ending_of(parts[-1]), "1")

@@ -23,7 +23,7 @@ from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.deformation import FftFlattening
-from tehl.operators.jacobian import Neighbours, jacobian, neighbour, rows
+from tehl.operators.jacobian import Neighbours, flux_difference, jacobian, neighbour, rows
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import ROUNDS, VECTORS, Newton
 from tehl.solver.physics.share import contact_of
@@ -302,29 +302,8 @@ def transport(level: Level, neighbours: Neighbours) -> Neighbours:
     before = np.zeros_like(partial)
     before[:, 1:] = partial[:, :-1]
     is_open = np.where(before & ~partial, 0.0, 1.0).ravel()
-    return neighbours._replace(upstream=flux_difference(level), open_west=is_open)
-
-
-def flux_difference(level: Level) -> csr_matrix:
-    """Return the matrix of the wedge by fluxes through cell faces, of the orders of the level.
-
-    A node passes on 3/2 m(i) - 1/2 m(i-1) of its mass m where its order is two, else m(i); into the
-    second node of a line flows their mean if the wedge is of second order. A partly filled node
-    passes on what the last full one upstream does, or the oil that enters the line.
-    """
-    grid, second = level.grid, level.film.second.astype(float).ravel()
-    every = np.ones(grid.shape, bool)
-    west, here = neighbour(grid, every, 0, -1), rows(np.ones(second.size))
-    passed = here + rows(0.5 * second) @ (here - west)
-    if level.stencil.w2 > 0.0:
-        first = np.zeros(grid.shape)
-        first[:, 0] = ~(level.film.partial[:, :2] > 0).any(axis=1)
-        east = neighbour(grid, every, 0, 1)
-        passed = rows(1.0 - first.ravel()) @ passed + rows(0.5 * first.ravel()) @ (here + east)
-    passed = _last_full(level) @ passed
-    inner = np.zeros(grid.shape)
-    inner[(0 if grid.mirror else 1) : -1, 1:-1] = 1.0 / grid.dx
-    return csr_matrix(rows(inner.ravel()) @ (passed - west @ passed))
+    flux = flux_difference(level.film, level.stencil, level.grid, _last_full(level))
+    return neighbours._replace(upstream=flux, open_west=is_open)
 
 
 def _last_full(level: Level) -> csr_matrix:

@@ -1,0 +1,209 @@
+"""Stiffness and damping of a steady film over frequency, in SI, with their error bars.
+
+The linear equations are those of `tehl.solver.physics.response`.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from scipy.ndimage import distance_transform_edt
+
+from tehl.base.typing import Array
+from tehl.contact.dynamics import Dynamics
+from tehl.result.fields import FilmDynamics
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.iteration import coarse_grid
+from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.newton import one_thread
+from tehl.solver.physics.response import FilmResponse, Solutions
+
+COARSE_RESPONSE = 17
+"""Least nodes along x of the coarse correction: with 33 the dense matrix takes half of the time."""
+FRONT_DISTANCE = 0.1
+"""Distance from the cavity, in half-widths, at which the pressure limits the amplitude."""
+RESPONSE_BAR, FRONT_BAR = 0.5, 2.0
+"""Error bar over the change between two grids: of a value of second order a third, measured up to
+0.41 (M 50 and 100, L 5 and 10); of first order where a film begins behind a meniscus."""
+BAR_CYCLES = 12
+"""Cycles on the coarser grid of the error bars, from the film of the finer one."""
+
+
+class Changes(NamedTuple):
+    """Changes of load and rolling force by approach and speed, over frequency [-].
+
+    (2, n) each: that in phase, and that ahead by a quarter period, over Omega; ``pressure`` is
+    |P_1| over the approach, (n, ny nx).
+    """
+
+    load_by_approach: Array
+    rolling_by_approach: Array
+    load_by_speed: Array
+    rolling_by_speed: Array
+    pressure: Array
+
+
+def film_dynamics(run: FilmSolver, settings: Dynamics) -> FilmDynamics:
+    """Return stiffness and damping of the film of a finished run.
+
+    The temperatures, and the thinning by shear, stay those of the steady film. The coarser levels
+    of the run are overwritten.
+
+    Parameters
+    ----------
+    run : FilmSolver
+        With a converged film on its finest level.
+    settings : Dynamics
+        Frequencies.
+    """
+    scales, groups = run.hierarchy.scaled.scales, run.hierarchy.scaled.groups
+    time = scales.half_width_x / scales.speed
+    frequency = np.array(settings.over(time))
+    omegas, excess = 2.0 * np.pi * frequency * time, run.coupling.excess()
+    found = changes(run.levels, omegas, excess)
+    near = run.finest.equations.grid
+    lengths = (groups.ellipticity * near.dy, near.dx)
+    wet = run.finest.film.p > 0.0
+    inside = (distance_transform_edt(wet, sampling=lengths) > FRONT_DISTANCE) & wet
+    pressure = run.finest.film.p[inside]
+    amplitude = np.array([1.0 / (one[inside.ravel()] / pressure).max() for one in found.pressure])
+    force = scales.hertz_pressure * scales.half_width_x * scales.half_width_y
+    film, tangent = scales.film_thickness, force * scales.film_thickness / scales.half_width_x
+
+    def in_si(pair: Array, unit: float) -> tuple[Array, Array]:
+        return pair[0] * unit, pair[1] * unit * time
+
+    stiffness, damping = in_si(found.load_by_approach, force / film)
+    coarse = _coarse_changes(run, omegas, excess)
+    bars = (np.abs(stiffness), np.abs(damping))  # 100 % where the coarser grid has no film
+    if coarse is not None:
+        part = FRONT_BAR if run.finest.stencil.conserves else RESPONSE_BAR
+        other = in_si(coarse.load_by_approach, force / film)
+        bars = (part * np.abs(stiffness - other[0]), part * np.abs(damping - other[1]))
+    by_speed = in_si(found.load_by_speed, force / scales.speed)
+    rolling = in_si(found.rolling_by_approach, tangent / film)
+    rolling_by_speed = in_si(found.rolling_by_speed, tangent / scales.speed)
+    return FilmDynamics(
+        frequency=frequency,
+        stiffness=stiffness,
+        damping=damping,
+        stiffness_error=bars[0],
+        damping_error=bars[1],
+        amplitude=amplitude * film,
+        load_by_speed=by_speed[0],
+        load_by_acceleration=by_speed[1],
+        rolling_stiffness=rolling[0],
+        rolling_damping=rolling[1],
+        rolling_by_speed=rolling_by_speed[0],
+        rolling_by_acceleration=rolling_by_speed[1],
+    )
+
+
+def changes(
+    levels: Sequence[Level], omegas: Array, excess: Array | None = None, inputs: int = 2
+) -> Changes:
+    """Return the response of the film on the last of ``levels``, dimensionless.
+
+    Parameters
+    ----------
+    levels : sequence of Level
+        Coarsest first; the last one has the steady film.
+    omegas : (n,) array
+        Frequencies omega a_x / u_m.
+    excess : (ny, nx) array or None
+        1 - rho_e/rho* of a heated film (`tehl.solver.physics.thermal.Coupling.excess`).
+    inputs : {1, 2}
+        The approach alone, or the speed too: without it its changes are zero.
+    """
+    level = levels[-1]
+    level.update()
+    stored = None if excess is None else 1.0 - excess
+    system = FilmResponse(level, coarse_grid(levels, COARSE_RESPONSE), stored)
+    every, slopes = np.ones(system.unknown.size), system.outside
+    # sources a and b of the approach, which lessens the film, and of the speed
+    sources = ((system.by_film @ every, -system.density), (system.wedge, 0.0 * every))[:inputs]
+    # what is not in the pressure: H_1 without deflection, and the load outside
+    moved = (-1.0, 0.0)
+    outside = ((0.0, 0.0 if slopes is None else -slopes.load_by_rate), (level.sources.outside, 0.0))
+    found = np.zeros((2, 2, 2, omegas.size))
+    pressure = np.zeros((omegas.size, every.size))
+    with one_thread():
+        static = [system.solve(0.0, steady) for steady, _ in sources]
+        spaces = [
+            Solutions(system, source[1] + system.parts(one)[1])
+            for source, one in zip(sources, static, strict=True)
+        ]
+        for place in _ends_first(omegas.size):
+            omega = omegas[place]
+            for number, (one, space) in enumerate(zip(static, spaces, strict=True)):
+                late = space.at(omega)
+                now, ahead = _forces(system, one, moved[number]), _forces(system, late, 0.0)
+                now[0] += outside[number][0]
+                ahead[0] += outside[number][1]
+                found[number, :, 0, place] = now - omega * ahead.imag
+                found[number, :, 1, place] = ahead.real
+                if number == 0:
+                    pressure[place] = np.abs(one + 1j * omega * late)
+    (load, rolling), (load_by_speed, rolling_by_speed) = found
+    return Changes(load, rolling, load_by_speed, rolling_by_speed, pressure)
+
+
+def _forces(system: FilmResponse, change: Array, moved: float) -> Array:
+    """Return load and rolling force of a change, whose film is its deflection plus ``moved``."""
+    level, weights = system.level, _load_weights(system.level)
+    pressure = np.where(system.carries, change, 0.0)
+    film = moved + system.deflection(change)
+    # int H P_x = -int P H_x as P vanishes on the edges
+    by_film, by_pressure = (
+        np.gradient(field, level.grid.dx, axis=1).ravel() for field in (level.film.p, level.film.h)
+    )
+    rolling = 0.5 * (weights @ (by_film * film) - weights @ (by_pressure * pressure))
+    load = weights @ pressure
+    if system.outside is not None:
+        load += system.outside.load_by_film * film.reshape(level.grid.shape)[:, 0].mean()
+    return np.array([load, rolling])
+
+
+def _load_weights(level: Level) -> Array:
+    """Return the weights of the nodes in the load, by the trapezoidal rule, (n,)."""
+    grid = level.grid
+    along, across = np.ones(grid.shape[1]), np.full(grid.shape[0], 2.0 if grid.mirror else 1.0)
+    along[[0, -1]] = 0.5
+    across[[0, -1]] *= 0.5
+    return np.asarray(level.equations.load.area * np.outer(across, along).ravel())
+
+
+def _ends_first(number: int) -> list[int]:
+    """Return the places of a list, ends first and then middles: the space serves more of them."""
+    order, intervals = [0, number - 1], [(0, number - 1)]
+    for low, high in intervals:  # grows
+        if high - low > 1:
+            middle = (low + high) // 2
+            order.append(middle)
+            intervals += [(low, middle), (middle, high)]
+    return list(dict.fromkeys(order))
+
+
+def _coarse_changes(run: FilmSolver, omegas: Array, excess: Array | None) -> Changes | None:
+    """Return the same on the next coarser grid, at its own film; None where that does not converge.
+
+    A heated film has the temperatures of the finest grid there.
+    """
+    levels, fine = run.levels[:-1], run.finest
+    if not levels:
+        return None
+    level = levels[-1]
+    level.set_state(fine.film.p[::2, ::2], fine.rigid_approach)
+    level.pose_problem()
+    if excess is not None:
+        level.update()
+        level.write_source()
+    try:
+        for _ in range(BAR_CYCLES):
+            run.hierarchy.cycle(levels)
+        level.update()
+        if not (level.evaluate_residual() < 1e-4 and abs(level.load_error()) < 1e-4):
+            return None
+        return changes(levels, omegas, None if excess is None else excess[::2, ::2], inputs=1)
+    except ArithmeticError:
+        return None

@@ -1,0 +1,299 @@
+"""Linear response of a steady film to small harmonic changes of the approach and of the speed.
+
+The bodies move apart by d e^(i Omega t), and the speed changes by s e^(i Omega t)
+(docs/theory/dynamics.md):
+
+    L_P P_1 + L_H H_1 - i Omega (rho' H P_1 + rho H_1) = s (rho H)_x,    H_1 = d + K P_1,
+
+with P_1 = 0 on the edges and in cavities, which stay where they are. L_P and L_H are those of
+`tehl.operators.jacobian`: at Omega = 0 the response is the derivative of the discrete steady film.
+With A = L_P + L_H K, B = rho' H + rho K and the source a + i Omega b, P_1 = Q + i Omega R, where
+
+    A Q = a,    (A - i Omega B) R = b + B Q,
+
+so that damping keeps its digits at low frequencies. The source of R is the same at all
+frequencies: solutions at some of them span a space in which those at the others are found.
+"""
+
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
+
+from tehl.base.typing import Array, BoolArray
+from tehl.estimate.grid import Grid
+from tehl.operators.far_field import EdgeSlopes
+from tehl.operators.jacobian import Cavity, flux_difference, jacobian, rows
+from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.newton import Newton
+from tehl.solver.physics.cavity import oil_flow
+
+RESPONSE_RESIDUAL = 1e-6
+"""Relative residual of the linear equations; stiffness and damping are then accurate to 1e-5."""
+RESPONSE_VECTORS, RESPONSE_ROUNDS = 30, 10
+"""Directions of the Krylov method per restart, and most restarts."""
+DEPENDENT = 1e-13
+"""Eigenvalue of the products of solutions, over the largest, below which they are dependent."""
+
+
+class Coefficients(NamedTuple):
+    """Coefficients of the equations at all nodes, row by row: L_P, L_H, and (n,) each.
+
+    ``density`` and ``denser`` are those of B by the film and by the pressure, ``wedge`` the source
+    (rho H)_x of the speed.
+    """
+
+    by_pressure: csr_matrix
+    by_film: csr_matrix
+    density: Array
+    denser: Array
+    wedge: Array
+
+
+class FilmResponse:
+    """The linear equations of a film, each scaled by the sum of its coefficients.
+
+    Parameters
+    ----------
+    level : Level
+        With its steady film up to date.
+    coarse : Grid
+        Grid of the coarse correction of the preconditioner, of some hundred nodes.
+    stored : array of ``grid.shape`` or None
+        Density of the oil in a cell over that of the flux, in a heated film; None is one.
+    """
+
+    def __init__(self, level: Level, coarse: Grid, stored: Array | None = None) -> None:
+        self.level, self.operators = level, Newton(level, coarse)
+        self.close: CloseInverse | None = None  # of the last frequency
+        film, far = level.film, level.far_field
+        inner = self.operators.neighbours.here.diagonal() > 0.0
+        self.unknown = self.carries = inner & (film.p > 0.0).ravel()
+        ones = np.ones(inner.size)
+        found = self._coefficients(ones if stored is None else stored.ravel())
+        self.outside = None
+        if far is not None:
+            self.outside = far.slopes(film.h, level.equations.gap)
+            edge = (film.p > 0.0).ravel() & ~inner & (self.outside.by_film != 0.0).ravel()
+            self.unknown = self.carries = self.unknown | edge
+            found = _with_edges(found, edge.astype(float), film.p.ravel(), self.outside)
+        near = level.equations.influence.self_film
+        size = np.asarray(abs(found.by_pressure).sum(1) + near * abs(found.by_film).sum(1)).ravel()
+        scale = np.where(self.unknown, 1.0 / np.where(self.unknown, size, 1.0), 0.0)
+        kept = rows(self.unknown.astype(float))
+        self.by_pressure = csr_matrix(rows(scale) @ found.by_pressure @ kept)
+        self.by_film = csr_matrix(rows(scale) @ found.by_film)
+        self.density, self.denser = scale * found.density, scale * found.denser
+        self.wedge = scale * found.wedge
+
+    def _coefficients(self, part: Array) -> "Coefficients":
+        """Return the coefficients at the inner nodes; ``part`` is that of ``stored``, (n,)."""
+        level, neighbours, cavity = self.level, self.operators.neighbours, None
+        film, stencil = level.film, level.stencil
+        oil = (film.rho * film.h).ravel()
+        density, denser = film.rho.ravel() * part, (film.drho * film.h).ravel() * part
+        if stencil.conserves:  # at partly filled nodes the unknown is the oil
+            cavity = Cavity.of(film)
+            partly = (cavity.full == 0.0) & (neighbours.here.diagonal() > 0.0)
+            self.unknown = self.carries | partly
+            flux = flux_difference(film, stencil, level.grid)
+            neighbours, oil = neighbours._replace(upstream=flux), oil_flow(level)[0].ravel()
+            density, denser = density * cavity.full, np.where(cavity.full > 0.0, denser, 1.0)
+        slopes = level.conductance_slopes()
+        by_pressure, by_film = jacobian(film, stencil, neighbours, *slopes, cavity)
+        if cavity is not None:
+            along, swept = moving_front(level)
+            by_pressure, denser = csr_matrix(by_pressure + along), denser + swept
+        return Coefficients(by_pressure, by_film, density, denser, neighbours.upstream @ oil)
+
+    def parts(self, change: Array) -> tuple[Array, Array]:
+        """Return A and B times changes of the unknowns, real or complex, (n,)."""
+        film = self.deflection(change)
+        steady = self.by_pressure @ change + self.by_film @ film
+        return steady, self.denser * change + self.density * film
+
+    def deflection(self, change: Array) -> Array:
+        """Return K times the changes of the pressures, (n,)."""
+        pressure = np.where(self.carries, change, 0.0)
+        real = self._deflected(pressure.real)
+        return real + 1j * self._deflected(pressure.imag) if np.iscomplexobj(pressure) else real
+
+    def _deflected(self, pressure: Array) -> Array:
+        shape = self.level.grid.shape
+        film = np.empty(shape)
+        of = np.ascontiguousarray(pressure).reshape(shape)
+        self.level.equations.deformation.deflect(of, film)
+        return film.ravel()
+
+    def product(self, omega: float, change: Array) -> Array:
+        """Return (A - i Omega B) times a change; identity where nothing is unknown."""
+        inside = np.where(self.unknown, change, 0.0)
+        steady, stored = self.parts(inside)
+        flow = steady - 1j * omega * stored if omega else steady
+        return np.where(self.unknown, flow, change)
+
+    def solve(self, omega: float, source: Array, start: Array | None = None) -> Array:
+        """Return the solution of (A - i Omega B) u = source, by GCROT.
+
+        Parameters
+        ----------
+        omega : float
+            Angular frequency [u_m / a_x].
+        source, start : (n,) array
+            Right-hand side, and a first guess.
+        """
+        kind = complex if omega else float
+        if self.close is None or self.close.omega != omega:
+            self.close = CloseInverse(self, omega)
+        size = source.size
+        found, failed = gcrotmk(
+            LinearOperator((size, size), matvec=partial(self.product, omega), dtype=kind),
+            source.astype(kind),
+            x0=start,
+            rtol=RESPONSE_RESIDUAL,
+            maxiter=RESPONSE_ROUNDS,
+            m=RESPONSE_VECTORS,
+            M=LinearOperator((size, size), matvec=self.close.solve, dtype=kind),
+        )
+        if failed:
+            raise ArithmeticError(f"the response at Omega = {omega:g} does not converge")
+        return np.asarray(found)
+
+
+def _with_edges(
+    inner: Coefficients, edge: Array, pressure: Array, slopes: EdgeSlopes
+) -> Coefficients:
+    """Return the coefficients with the far field on the edges: u - (E + i Omega S) H_1 = s P."""
+    return Coefficients(
+        csr_matrix(inner.by_pressure + rows(edge)),
+        csr_matrix(inner.by_film - rows(edge * slopes.by_film.ravel())),
+        (1.0 - edge) * inner.density + edge * slopes.by_rate.ravel(),
+        (1.0 - edge) * inner.denser,
+        inner.wedge + edge * pressure,
+    )
+
+
+class CloseInverse:
+    """Approximate inverse of A - i Omega B: coarse-grid correction, then a sparse factorisation.
+
+    As `tehl.solver.cycle.newton.Preconditioner`, without the load balance.
+    """
+
+    def __init__(self, system: FilmResponse, omega: float) -> None:
+        operators, lag = system.operators, 1j * omega if omega else 0.0
+        single = np.complex64 if omega else np.float32
+        self.system, self.single, self.omega = system, single, omega
+        self.pressed = csr_matrix(system.by_pressure - lag * rows(system.denser))
+        self.opened = csr_matrix(system.by_film - lag * rows(system.density))
+        near = system.level.equations.influence.self_film
+        alone = rows(1.0 - system.unknown.astype(float))
+        carried = rows(system.carries.astype(float))
+        close = self.pressed + near * (self.opened @ carried) + alone
+        self.close = splu(
+            csc_matrix(close, dtype=single),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.01,
+            options={"SymmetricMode": True},
+        )
+        self.moving = system.carries[operators.same].astype(float)
+        self.to_fine = csr_matrix(carried @ operators.to_fine @ rows(self.moving))
+        self.to_coarse = csr_matrix(rows(self.moving) @ operators.to_coarse)
+        matrix = (self.to_coarse @ self.pressed @ self.to_fine).toarray()
+        opened = (self.to_coarse @ self.opened @ operators.to_fine).toarray()
+        matrix += (opened @ operators.deflection) * self.moving
+        empty = np.nonzero(~matrix.any(axis=1))[0]
+        matrix[empty, empty] = 1.0
+        self.coarse = lu_factor(matrix)
+
+    def solve(self, rest: Array) -> Array:
+        """Return an approximate solution for the right-hand side ``rest``."""
+        operators = self.system.operators
+        coarse = lu_solve(self.coarse, self.to_coarse @ rest)
+        change = self.to_fine @ coarse
+        # the coarse deflection is accurate enough, and saves a product
+        film = operators.to_fine @ (operators.deflection @ (self.moving * coarse))
+        flow = self.pressed @ change + self.opened @ film
+        left = rest - np.where(self.system.unknown, flow, change)
+        return change + self.close.solve(left.astype(self.single))
+
+
+class Solutions:
+    """Solutions of (A - i Omega B) R = source at some frequencies, as a space for the others."""
+
+    def __init__(self, system: FilmResponse, source: Array) -> None:
+        self.system, self.source = system, source
+        self.vectors, self.steady, self.stored = (np.zeros((0, source.size)) for _ in range(3))
+
+    def at(self, omega: float) -> Array:
+        """Return the solution at a frequency, to `RESPONSE_RESIDUAL`; new ones join the space."""
+        start, error = self._within(omega)
+        if error <= RESPONSE_RESIDUAL:
+            return start
+        found = self.system.solve(omega, self.source, start)
+        for part in (found.real, found.imag) if omega else (found,):
+            self._join(np.where(self.system.unknown, part, 0.0))
+        return found
+
+    def _join(self, vector: Array) -> None:
+        for _ in range(2):  # twice is enough
+            vector = vector - self.vectors.T @ (self.vectors @ vector)
+        vector = vector / np.linalg.norm(vector)
+        steady, stored = self.system.parts(vector)
+        for name, row in (("vectors", vector), ("steady", steady), ("stored", stored)):
+            setattr(self, name, np.vstack([getattr(self, name), row]))
+
+    def _within(self, omega: float) -> tuple[Array, float]:
+        """Return the vector of the space with the least residual, and that residual, relative."""
+        images = self.steady - 1j * omega * self.stored if omega else self.steady
+        kind = images.dtype
+        if not len(images):
+            return np.zeros(self.source.size, kind), np.inf
+        weights, *_ = np.linalg.lstsq(
+            images.conj() @ images.T, images.conj() @ self.source, rcond=DEPENDENT
+        )
+        rest = self.source - weights @ images
+        return weights @ self.vectors, float(np.linalg.norm(rest) / np.linalg.norm(self.source))
+
+
+def moving_front(level: Level) -> tuple[csr_matrix, Array]:
+    """Return flow along the fronts where a film begins, and oil that they sweep, by the pressure.
+
+    Where the pressure rises by P_1 a front x = f(y) moves by -P_1/P_x. Oil that flows along the
+    front, and the gap between the layer ahead of it and the film, make the flux into the film
+
+        -d/dy (eps f' P_1) - i Omega eps (1 + f'^2) P_1    per length along y
+
+    (docs/theory/dynamics.md, starved films). The matrix over all nodes and the array, (n,), belong
+    to the first node of the film on each line.
+    """
+    film, grid = level.film, level.grid
+    wet, lines = film.p > 0.0, np.arange(grid.shape[0])
+    begins = wet[:, 1:] & ~wet[:, :-1] & (film.partial[:, :-1] > 0)
+    has: BoolArray = np.asarray(begins.any(axis=1))
+    first = np.minimum(np.argmax(begins, axis=1) + 1, grid.nx - 2)
+    has[[-1] if grid.mirror else [0, -1]] = False
+    here, node = film.p[lines, first], lines * grid.nx + first
+    rise = np.where(has, film.p[lines, first + 1] - here, 1.0)
+    place = grid.x[first] - grid.dx * np.clip(here / np.where(rise > 0.0, rise, np.inf), 0.0, 1.0)
+    width = level.equations.groups.ellipticity * grid.dy
+    eps = film.eps[lines, first]
+    both = has[1:] & has[:-1]
+    slope = np.where(both, np.diff(place) / width, 0.0)
+    # line by line: half the flux of both lines through each face between them
+    low, high = node[:-1][both], node[1:][both]
+    flow = 0.5 * slope[both] / (grid.dx * width)
+    twice = np.where(grid.mirror & (lines[:-1][both] == 0), 2.0, 1.0)
+    entries = [
+        (row, column, sign * flow * eps[at][both])
+        for row, sign in ((low, -twice), (high, np.ones_like(flow)))
+        for column, at in ((low, slice(None, -1)), (high, slice(1, None)))
+    ]
+    row, column, value = (np.concatenate(part) for part in zip(*entries, strict=True))
+    along = csr_matrix((value, (row, column)), shape=(wet.size, wet.size))
+    before = np.append(-slope[0] if grid.mirror else 0.0, slope)
+    mean, swept = 0.5 * (before + np.append(slope, 0.0)), np.zeros(wet.size)
+    swept[node[has]] = (eps * (1.0 + mean**2) / grid.dx)[has]
+    return along, swept

@@ -1,0 +1,210 @@
+"""Stiffness and damping: independent values, two steady films, the march in time, passivity."""
+
+import numpy as np
+import pytest
+
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.results import Result, load
+from tehl.api.solvers import solve, solve_transient
+from tehl.base.errors import InputError
+from tehl.cli.text import as_text
+from tehl.contact.options import Domain, Options
+from tehl.estimate.scaling import scales
+from tehl.io.store import save
+from tehl.plots.dynamics import dynamics_curves
+from tehl.studies.bearing import bearing_table, in_series, radial_loads
+from tests.cases import ball_tables
+from tests.reference import moes_contact
+
+INDEPENDENT = {
+    (50.0, 10.0): {0.1: (3.04164833, 0.0227288612), 1.0: (3.16664125, 0.125741431),
+                   3.0: (3.12817813, 0.105834422)},
+    (50.0, 5.0): {0.1: (3.040861, 0.0192162414), 1.0: (3.13311085, None), 3.0: (3.13767678, None)},
+    (100.0, 5.0): {0.1: (3.08136716, None), 1.0: (3.13998161, None), 3.0: (3.13064637, None)},
+}  # fmt: skip
+"""k and Omega c of an independent solver (dense Newton's method, three grids), over M, L, Omega."""
+DOMAIN = Domain(x=(-3.5, 1.5), y=(-2.5, 2.5))
+
+
+def on(points: int, **settings: object) -> Options:
+    return Options(points=points, domain=DOMAIN, edges="zero", **settings)
+
+
+def at(problem: ContactProblem, *omegas: float) -> ContactProblem:
+    """Return a problem with dynamics at some omega a_x/u_m."""
+    unit = 2.0 * np.pi * time_of(problem)
+    given = problem.model_dump(exclude_none=True)
+    table = {"frequencies": [one / unit for one in omegas]} if omegas else {}
+    return ContactProblem.model_validate(given | {"dynamics": table})
+
+
+def time_of(problem: ContactProblem) -> float:
+    return scales(problem).half_width_x / scales(problem).speed
+
+
+def dimensionless(found: Result) -> tuple[np.ndarray, np.ndarray]:
+    """Return k and Omega c [-]."""
+    one = found.scales
+    unit = one.hertz_pressure * one.half_width_x * one.half_width_y / one.film_thickness
+    response = found.dynamics.impedance / unit
+    return response.real, response.imag
+
+
+@pytest.fixture(scope="module")
+def swept() -> Result:
+    """Return a film at the default frequencies."""
+    return solve(at(moes_contact(50.0, 10.0)), on(65))
+
+
+@pytest.mark.parametrize("group", INDEPENDENT, ids=str)
+def test_stiffness_and_damping_are_those_of_an_independent_solver(group):
+    known = INDEPENDENT[group]
+    found = solve(at(moes_contact(*group), *known), on(129))
+    stiffness, damping = dimensionless(found)
+    bar = found.dynamics.stiffness_error / found.dynamics.stiffness
+    for number, (k, omega_c) in enumerate(known.values(), start=1):
+        assert stiffness[number] == pytest.approx(k, rel=max(1e-3, bar[number]))
+        if omega_c is not None:
+            assert damping[number] == pytest.approx(omega_c, rel=0.03)
+
+
+def test_at_rest_the_stiffness_is_that_of_two_steady_films():
+    problem, change = moes_contact(50.0, 10.0), 5e-5
+    forces, places = [], []
+    for factor in (1.0 - change, 1.0 + change):
+        given = problem.model_dump(exclude_none=True)
+        whole = scales(problem)
+        given["contact"] = {
+            "radius": problem.radius_x,
+            "load": factor * whole.load,
+            "entrainment_speed": whole.speed,
+        }
+        loaded = ContactProblem.model_validate(given)
+        part = whole.half_width_x / scales(loaded).half_width_x  # the same nodes
+        x, y = (tuple(part * edge for edge in edges) for edges in (DOMAIN.x, DOMAIN.y))
+        options = Options(points=65, domain=Domain(x=x, y=y), edges="zero", accuracy="tight")
+        found = solve(loaded, options.model_copy(update={"tolerance": 1e-10}))
+        forces.append(found.load)
+        places.append(found.rigid_approach * found.scales.film_thickness)
+    slope = -(forces[1] - forces[0]) / (places[1] - places[0])
+    still = solve(at(problem, 1.0), on(65, accuracy="tight")).dynamics.stiffness[0]
+    assert still == pytest.approx(slope, rel=1e-4)
+
+
+def test_the_march_in_time_has_the_same_response():
+    """Load with an amplitude of 1 %: approach, and so k + i omega c, follow from its phase."""
+    problem, omega, periods = moes_contact(50.0, 10.0), 1.0, 3
+    period = 2.0 * np.pi / omega * time_of(problem)
+    times = np.linspace(0.0, periods * period, 24 * periods + 1)
+    given = problem.model_dump(exclude_none=True)
+    phase = omega * times / time_of(problem)
+    given["transient"] = {
+        "duration": times[-1],
+        "load": [[t, 1.0 + 0.01 * np.sin(one)] for t, one in zip(times, phase, strict=True)],
+        "frames": 0,
+        "tolerance": 1e-6,
+    }
+    run = solve_transient(ContactProblem.model_validate(given), on(65))
+    history = run.history
+    last = history.time > (periods - 1) * period
+    angle = omega * history.time[last] / time_of(problem)
+    basis = np.stack([np.ones(angle.size), np.sin(angle), np.cos(angle)], axis=1)
+    (_, sine, cosine), *_ = np.linalg.lstsq(basis, history.rigid_approach[last], rcond=None)
+    (_, load_sine, load_cosine), *_ = np.linalg.lstsq(basis, history.load[last], rcond=None)
+    target = 2.0 * np.pi / 3.0
+    response = -target * (load_sine + 1j * load_cosine) / (sine + 1j * cosine)
+    stiffness, damping = dimensionless(solve(at(problem, omega), on(65)))
+    assert response.real == pytest.approx(stiffness[1], rel=0.01)
+    assert response.imag == pytest.approx(damping[1], rel=0.06)  # 100 steps per period
+
+
+def test_films_absorb_and_obey_kramers_and_kronig(swept: Result):
+    found = swept.dynamics
+    stiffness, absorbed = dimensionless(swept)
+    assert (found.damping >= 0.0).all()
+    omega = 2.0 * np.pi * found.frequency[1:] * time_of(swept.problem)
+    # k(Omega) - k(0) = -(2 Omega^2 / pi) P int  Omega' c(Omega') / (Omega' (Omega'^2 - Omega^2))
+    fine = np.exp(np.linspace(np.log(omega[0]), np.log(omega[-1]), 4001))
+    imaginary = np.interp(np.log(fine), np.log(omega), absorbed[1:])
+    step, place = np.log(fine[1] / fine[0]), 2031  # Omega = 1, far from both ends
+    odd = np.arange(fine.size) % 2 != place % 2  # the principal value: nodes on both sides
+    kernel = imaginary[odd] / (fine[odd] ** 2 - fine[place] ** 2)
+    risen = -2.0 * fine[place] ** 2 / np.pi * 2.0 * step * kernel.sum()
+    known = np.interp(np.log(fine[place]), np.log(omega), stiffness[1:]) - stiffness[0]
+    assert risen == pytest.approx(known, rel=0.03)
+
+
+def test_a_film_that_is_thin_leaves_the_dry_stiffness():
+    stiffness, damping = dimensionless(solve(at(moes_contact(300.0, 14.0), 0.3), on(129)))
+    assert stiffness == pytest.approx(np.pi, rel=0.015)
+    assert damping[1] < 0.03
+
+
+@pytest.mark.parametrize("table", [{"supply": {"ratio": 0.6}}, {"thermal": {}}], ids=str)
+def test_starved_and_heated_films_have_both(table):
+    tables = ball_tables(dynamics={"frequencies": ["200 Hz", "2 kHz"]}, **table)
+    if "thermal" in table:
+        tables["lubricant"] |= {"conductivity": "0.14 W/(m K)", "heat_capacity": "2000 J/(kg K)"}
+        tables["lubricant"]["viscosity"] |= {"gamma": "0.04 1/K"}
+        tables["contact"] |= {"slide_roll_ratio": 0.3}
+    found = solve(case_from_tables(tables)[0], Options(points=65))
+    stiffness, damping = dimensionless(found)
+    assert stiffness == pytest.approx(np.pi, rel=0.05)
+    assert damping[1] > 0.0
+    # behind a meniscus the damping is of first order, and its bar may exceed it
+    assert (found.dynamics.damping + found.dynamics.damping_error > 0.0).all()
+
+
+def test_results_keep_and_show_stiffness_and_damping(swept: Result, tmp_path):
+    save(swept, tmp_path / "a.nc")
+    again = load(tmp_path / "a.nc")
+    assert (again.dynamics.damping == swept.dynamics.damping).all()
+    assert len(again.summary()["dynamics"]["over_frequency"]) == swept.dynamics.frequency.size
+    assert "  dynamics  " in as_text(again)
+    assert dynamics_curves(again).axes
+
+
+@pytest.mark.parametrize(
+    ("tables", "words"),
+    [
+        ({"dynamics": {"frequencies": ["2 kHz", "1 kHz"]}}, "must exceed the one before"),
+        (
+            {"dynamics": {}, "contact_film": {"thickness": "5 nm"}},
+            "dynamics and contact_film exclude each other",
+        ),
+    ],
+)
+def test_mistakes_are_one_sentence(tables, words):
+    with pytest.raises(InputError, match=words):
+        case_from_tables(ball_tables(**tables))
+
+
+def test_two_films_in_series_are_half_as_stiff():
+    film = np.array([1e8 + 2e6j])
+    assert in_series(film, film) == pytest.approx(0.5 * film)
+    assert abs(in_series(film, film, 1e14)[0] - film[0]) < 1e-5 * abs(film[0])  # it stays at rest
+
+
+def test_rotor_programs_read_the_table_of_a_bearing():
+    """ROSS takes the coefficients of a bearing over the frequency, and a disc on it vibrates."""
+    rings = tuple(case_from_tables(ball_tables())[0] for _ in range(2))
+    angles, loads = radial_loads(100.0, 7)
+    assert (loads * np.cos(angles)).sum() == pytest.approx(100.0)
+    table = bearing_table(
+        rings, (angles, loads), [200.0, 400.0], [100.0, 300.0],
+        entrainment_radius=0.02, options=Options(points=65),
+    )  # fmt: skip
+    found = table.coefficients(300.0)
+    assert found["kxx"].min() > 1e7
+    assert found["kxx"].min() > found["kyy"].max()  # along the force
+    assert np.abs(found["kxy"]).max() < 1e-6 * found["kxx"].max()
+    assert (found["cxx"] > 0.0).all()
+    with pytest.raises(InputError, match="beyond the table"):
+        table.coefficients(1000.0)
+    ross = pytest.importorskip("ross", reason="ross-rotordynamics is not installed")
+    steel = ross.Material(name="steel", rho=7810.0, E=211e9, G_s=81.2e9)
+    shaft = [ross.ShaftElement(L=0.25, idl=0.0, odl=0.05, material=steel) for _ in range(2)]
+    disk = ross.DiskElement.from_geometry(n=1, material=steel, width=0.07, i_d=0.05, o_d=0.28)
+    bearings = [ross.BearingElement(n=node, **found) for node in (0, 2)]
+    rotor = ross.Rotor(shaft, [disk], bearings)
+    assert rotor.run_modal(speed=300.0).wn[0] > 100.0
