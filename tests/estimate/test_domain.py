@@ -6,9 +6,16 @@ from hypothesis import strategies as st
 
 from tehl.base.errors import InputError
 from tehl.contact.options import Domain, Options, coarsenable, coarsenings
-from tehl.estimate.domain import expected_points, recommended_domain
-from tehl.estimate.scaling import groups
-from tests.reference import moes_contact
+from tehl.estimate.domain import (
+    ENTRY_PART,
+    LARGEST_DOMAIN_FACTOR,
+    chosen_domain,
+    expected_points,
+    recommended_domain,
+)
+from tehl.estimate.entering import entry_error
+from tehl.estimate.scaling import ScaledProblem, groups
+from tests.reference import heated_contact, moes_contact
 
 
 @pytest.mark.parametrize(
@@ -76,3 +83,15 @@ def test_heavier_loads_need_more_points():
     assert points == sorted(points)
     assert points[0] < points[-1]
     assert all(coarsenings(n) >= 1 for n in points)
+
+
+@pytest.mark.parametrize("warmer", [0.0, 5.0, 20.0, 60.0])
+def test_the_domain_leaves_the_oil_that_enters_a_part_of_the_error_or_is_the_largest(warmer):
+    case, error = heated_contact(0.5), 0.01
+    bodies = case.inlet_temperature + warmer
+    scaled = ScaledProblem.of(case.with_bodies(bodies, bodies))
+    domain, least = chosen_domain(scaled, error), recommended_domain(scaled.entering, error)
+    factor = domain.x[0] / least.x[0]
+    assert 1.0 <= factor <= LARGEST_DOMAIN_FACTOR * (1.0 + 1e-9)
+    if factor < LARGEST_DOMAIN_FACTOR * (1.0 - 1e-9):
+        assert entry_error(scaled, domain) <= ENTRY_PART * error

@@ -82,6 +82,20 @@ def test_a_sliding_ball_is_warm_and_its_heat_is_accounted_for():
     assert abs(found["missing [%]"]) < 1.0
 
 
+def test_a_cooled_ball_and_disc_warm_up_with_sliding():
+    found = example("body_temperatures").main()
+    for name in ("ball [degC]", "disc [degC]"):
+        rise = [row[name] for row in found.values()]
+        assert 40.0 < rise[0] < 41.0
+        assert sorted(rise) == rise
+    # 1 / (4 pi r^2 h) = 3.979 K/W, and 0.147 K/W of its track
+    assert found[1.0]["ball [degC]"] - 40.0 == pytest.approx(
+        4.126 * found[1.0]["heat into the ball [W]"], rel=1e-3
+    )
+    assert found[1.0]["ball [degC]"] == pytest.approx(53.73, abs=0.1)  # 53.69 on 193 nodes
+    assert found[1.0]["central film [nm]"] < 0.8 * found[1.0]["film, bodies of 40 degC [nm]"]
+
+
 def test_only_the_wedge_makes_a_dimple_and_only_where_the_cool_surface_is_slow():
     found = example("dimple").main()
     assert found["ball slow (cool)"] == pytest.approx(238.0, rel=3e-2)

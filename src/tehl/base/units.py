@@ -330,6 +330,10 @@ VolumeHeatCapacity = Annotated[
 SolidDensity = Annotated[float, Quantity("a density", "kg/m^3", '"7850 kg/m^3"')]
 SolidConductivity = Annotated[float, Quantity("a thermal conductivity", "W/m/K", '"46 W/m/K"')]
 SolidHeatCapacity = Annotated[float, Quantity("a heat capacity per mass", "J/kg/K", '"470 J/kg/K"')]
+HeatTransfer = Annotated[float, Quantity("a heat transfer coefficient", "W/m^2/K", '"200 W/m^2/K"')]
+ThermalResistance = Annotated[
+    float, Quantity("a thermal resistance", "K/W", '"2 K/W"', "non-negative")
+]
 Angle = Annotated[float, Quantity("an angle", "rad", '"45 deg"', "any")]
 Number = Annotated[float, Quantity("a plain number", "-", "0.25", "any")]
 PositiveNumber = Annotated[float, Quantity("a plain number", "-", "100")]

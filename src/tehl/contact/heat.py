@@ -1,5 +1,7 @@
 """The heat problem of a film: energy equation, solids, and nodes across the film."""
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
@@ -78,3 +80,22 @@ def source_form(stated: SourceForm, peclet: float) -> Literal["line", "full"]:
     if stated != "auto":
         return stated
     return "line" if peclet >= LEAST_LINE_PECLET else "full"
+
+
+def rubbing_parts(
+    conductivities: Sequence[float], peclets: Sequence[float | None]
+) -> tuple[float, float]:
+    """Return the parts of the heat of rubbing that both solids take, which makes them as warm [-].
+
+    Parameters
+    ----------
+    conductivities : sequence of float
+        Of both solids [W/m/K].
+    peclets : sequence of float
+        u_s a_x / (2 diffusivity) of both [-], of any sign.
+    """
+    first, second = (
+        conductivity * (1.0 + math.sqrt(abs(peclet or 0.0)))
+        for conductivity, peclet in zip(conductivities, peclets, strict=True)
+    )
+    return first / (first + second), second / (first + second)

@@ -16,9 +16,11 @@ from tehl.base.units import (
     Radius,
     Speed,
     Temperature,
+    ThermalResistance,
 )
 from tehl.contact.bodies import Motion, Radii, reduced_radii
 from tehl.contact.boundary_contact import ContactFilm
+from tehl.contact.cooling import Cooling
 from tehl.contact.dynamics import Dynamics
 from tehl.contact.heat import FilmEnergy, Thermal
 from tehl.contact.hertz import HertzContact, ellipticity
@@ -70,6 +72,7 @@ class Surface(_WithRadii):
         "rms_roughness": "rq sq sigma rms roughness_rms",
         "ra_roughness": "ra sa roughness_ra",
         "temperature": "temp bulk_temperature body_temperature",
+        "thermal_resistance": "resistance r_th rth",
         "contact.entrainment_speed": "speed velocity",
         "material.young_modulus": "e young youngs_modulus elastic_modulus modulus young_modulus",
         "material.poisson_ratio": "nu poisson poissons_ratio poisson_ratio",
@@ -102,11 +105,27 @@ class Surface(_WithRadii):
     temperature: Temperature | None = None
     """Temperature far from the contact [K], in thermal runs; None is that of the oil at the
     inlet."""
+    thermal_resistance: ThermalResistance | None = None
+    """Rise of that temperature over the oil at the inlet per heat that enters from the contact
+    [K/W], instead of the temperature, which is then computed."""
+    cooling: Cooling | None = None
+    """A rotating body whose thermal resistance is estimated, instead of stating it."""
 
     @model_validator(mode="before")
     @classmethod
     def _convert_ra(cls, stated: Any) -> Any:
         return with_rms(stated, "ra_roughness", "rms_roughness")
+
+    @model_validator(mode="after")
+    def _must_be_warm_once(self) -> Self:
+        keys = ("temperature", "thermal_resistance", "cooling")
+        stated = [key for key in keys if getattr(self, key) is not None]
+        if len(stated) > 1:
+            raise ValueError(
+                f"states {' and '.join(stated)}: the temperature of the body is given, or follows "
+                "from its heat; leave one of them out"
+            )
+        return self
 
     @model_validator(mode="after")
     def _must_be_rough_once(self) -> Self:
@@ -286,6 +305,46 @@ class PointContact(Table):
             scheme=self.thermal.scheme,
             sources="line" if self.transient is not None else self.thermal.sources,
         )
+
+    @property
+    def resistances(self) -> tuple[float | None, float | None]:
+        """Return the thermal resistances of both bodies [K/W]; None where none is stated.
+
+        Raises ValueError if the estimate of a rotating body does not hold.
+        """
+        motion = self.motion
+        first = self._resistance("surface_1", motion.speed_1)
+        return first, self._resistance("surface_2", motion.speed_2)
+
+    def _resistance(self, key: str, speed: float) -> float | None:
+        surface: Surface = getattr(self, key)
+        if surface.cooling is None:
+            return surface.thermal_resistance
+        try:
+            return surface.cooling.resistance(surface.material, speed, self.hertz.half_width_y)
+        except ValueError as error:
+            raise ValueError(f"{key}.cooling {error}; or state {key}.thermal_resistance") from None
+
+    @property
+    def computes_bodies(self) -> bool:
+        """Whether the temperature of a body follows from its heat."""
+        surfaces = (self.surface_1, self.surface_2)
+        return any(one.thermal_resistance is not None or one.cooling for one in surfaces)
+
+    def with_bodies(self, first: float | None, second: float | None) -> Self:
+        """Return the same contact between bodies of stated temperatures.
+
+        Parameters
+        ----------
+        first, second : float
+            Temperatures of surface 1 and 2 far from the contact [K]; None is that of the oil.
+        """
+        nothing = {"thermal_resistance": None, "cooling": None}
+        surfaces = {
+            "surface_1": self.surface_1.model_copy(update={"temperature": first} | nothing),
+            "surface_2": self.surface_2.model_copy(update={"temperature": second} | nothing),
+        }
+        return self.model_copy(update=surfaces)
 
     @property
     def is_coupled(self) -> bool:

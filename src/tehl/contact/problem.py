@@ -83,6 +83,7 @@ def check(problem: PointContact) -> None:
             f"be between {1.0 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}"
         )
     check_size(problem)
+    check_bodies(problem)
 
 
 def _check_classes(table: BaseModel, path: str) -> None:
@@ -155,11 +156,12 @@ def check_heat(problem: PointContact) -> None:
     oil = problem.lubricant
     for key in SURFACES:
         surface = getattr(problem, key)
-        if problem.thermal is None and surface.temperature is not None:
-            raise ValueError(
-                f"{key}.temperature has an effect in thermal runs only: add a [thermal] table, or "
-                "state lubricant.temperature for an isothermal film"
-            )
+        for name in ("temperature", "thermal_resistance", "cooling"):
+            if problem.thermal is None and getattr(surface, name) is not None:
+                raise ValueError(
+                    f"{key}.{name} has an effect in thermal runs only: add a [thermal] table, or "
+                    "state lubricant.temperature for an isothermal film"
+                )
         for name, wanted in THERMAL_PROPERTIES.items() if problem.thermal else ():
             _need(f"{key}.material.{name}", getattr(surface.material, name), wanted)
     if problem.thermal is None:
@@ -171,6 +173,19 @@ def check_heat(problem: PointContact) -> None:
             "lubricant.viscosity has no temperature coefficient, which a thermal run needs: "
             f"{_remedy(problem)}"
         )
+
+
+def check_bodies(problem: PointContact) -> None:
+    """Check that bodies whose temperature follows from their heat have one steady film."""
+    if not problem.computes_bodies:
+        return
+    table = "[transient]" if problem.transient is not None else "supply.passes"
+    if problem.transient is not None or problem.has_passes:
+        raise ValueError(
+            f"thermal_resistance and cooling of a surface are for a single steady film: state its "
+            f"temperature, or leave out {table}"
+        )
+    _ = problem.resistances
 
 
 def _need(key: str, value: object, wanted: Quantity) -> None:

@@ -19,6 +19,8 @@ NEAREST, NEAR_EDGE_ERROR = (2.0, 1.6), 0.15
 gap, and error of the film per half-width less: 4 % measured at 1.2 from the sides (M = 76)."""
 LARGEST_DOMAIN_FACTOR = 2.5
 """Largest factor on the domain because of the temperature of the bodies."""
+DOMAIN_STEP, ENTRY_PART = 1.05, 0.3
+"""Steps of that factor, and part of the error of the domain that it leaves to the oil entering."""
 ELASTIC = 0.1
 """Error by zero pressure on the edges over the square of the width of the gap over the distance of
 the sides (0.05 to 0.08 measured for M = 10 to 100)."""
@@ -364,11 +366,10 @@ def _of_film(scaled: ScaledProblem, error: float) -> Domain:
     """Return the domain of `chosen_domain` without asperities."""
     if is_starved(scaled):
         return starved_domain(scaled)
-    domain = recommended_domain(scaled.entering, error)
-    excess = entry_error(scaled, domain) / (0.5 * error)
-    if excess <= 1.0:
-        return domain
-    factor = min(excess ** (1.0 / 3.0), LARGEST_DOMAIN_FACTOR)
-    (inlet, outlet), (south, north) = domain.x, domain.y
-    x, y = (factor * inlet, factor * outlet), (factor * south, factor * north)
-    return Domain.model_construct(x=x, y=y)
+    least = domain = recommended_domain(scaled.entering, error)
+    factor = 1.0
+    while factor < LARGEST_DOMAIN_FACTOR and entry_error(scaled, domain) > ENTRY_PART * error:
+        factor = min(DOMAIN_STEP * factor, LARGEST_DOMAIN_FACTOR)
+        x, y = ((factor * low, factor * high) for low, high in (least.x, least.y))
+        domain = Domain.model_construct(x=x, y=y)
+    return domain

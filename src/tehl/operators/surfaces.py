@@ -15,7 +15,7 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, gmres
 
 from tehl.base.typing import Array
-from tehl.contact.heat import FilmEnergy, source_form
+from tehl.contact.heat import FilmEnergy, rubbing_parts, source_form
 from tehl.contact.materials import Solid
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem, Scales
@@ -183,9 +183,9 @@ class Solids:
         heat : (nx, ny) array
             Dimensionless flux into both together.
         """
-        weights = [side.conductivity * (1.0 + np.sqrt(abs(side.peclet))) for side in self.both]
-        first, second = (weight / sum(weights) * heat for weight in weights)
-        self.rubbing = first, second
+        conductivities = [side.conductivity for side in self.both]
+        first, second = rubbing_parts(conductivities, [side.peclet for side in self.both])
+        self.rubbing = first * heat, second * heat
 
     def warm(self, walls: tuple[Array, Array]) -> None:
         """Add the present rise by rubbing to the walls: the line source of a sweep has it not.

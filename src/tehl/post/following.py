@@ -2,6 +2,7 @@
 
 from functools import cached_property
 
+from tehl.post.bodies import Bodies, bodies
 from tehl.post.boundary_contact import Touching, touching
 from tehl.post.film import mean_film
 from tehl.post.heat import Temperature, temperature, work_error
@@ -34,6 +35,11 @@ class Following:
     def temperature(self) -> Temperature | None:
         """Temperatures, None for an isothermal run."""
         return temperature(self.solution)
+
+    @cached_property
+    def bodies(self) -> Bodies | None:
+        """Temperatures of the bodies and heat into them, None for an isothermal run."""
+        return bodies(self.solution)
 
     @cached_property
     def rough(self) -> RoughFilm | None:

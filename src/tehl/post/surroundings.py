@@ -104,7 +104,7 @@ def _beyond(result: Solution, outer: float) -> tuple[float, float]:
     """
     from tehl.operators.far_field import angular_pressure  # noqa: PLC0415 (loading needs no scipy)
 
-    scaled = ScaledProblem.of(result.problem)
+    scaled = ScaledProblem.of(result.solved_problem)
     groups, base_groups = scaled.entering, result.groups
     ratio, stretch = groups.radius_ratio, groups.ellipticity
     base, lift = _far_gap(result)

@@ -33,11 +33,8 @@ def isothermal_reference(problem: ContactProblem) -> ContactProblem:
     if problem.thermal is None:
         raise InputError("the case is isothermal: no [thermal] table to compare without")
     oil = problem.lubricant.model_copy(update={"temperature": problem.inlet_temperature})
-    surfaces = {
-        name: getattr(problem, name).model_copy(update={"temperature": None})
-        for name in ("surface_1", "surface_2")
-    }
-    return problem.model_copy(update={"thermal": None, "lubricant": oil, **surfaces})
+    problem = problem.with_bodies(None, None)
+    return problem.model_copy(update={"thermal": None, "lubricant": oil})
 
 
 def thermal_effect(thermal: Solution, isothermal: Solution) -> ThermalEffect:

@@ -25,11 +25,13 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from tehl.contact.heat import FilmEnergy
+from tehl.contact.heat import FilmEnergy, rubbing_parts
 from tehl.contact.problem import ContactProblem
+from tehl.estimate.bodies import NotBalancedError, balanced
 from tehl.estimate.film_formulas import expected_film
 from tehl.estimate.inlet_heating import inlet_heating_factor
 from tehl.estimate.scaling import Groups, ScaledProblem
+from tehl.estimate.summits import shared_load
 from tehl.post.thermal_effect import isothermal_reference
 
 ASSUMED_TRACTION = 0.05
@@ -108,6 +110,9 @@ class ExpectedHeat:
     surface_1: float
     surface_2: float
     """Largest rises of the surfaces over their bulk [K]."""
+    heat_1: float
+    heat_2: float
+    """Heat into both bodies, with that of asperities [W]."""
     mid_film: float
     """Rise of mid-film over the oil at the inlet [K], at the centre of the contact."""
 
@@ -127,9 +132,14 @@ class _HeatPath(NamedTuple):
     def surfaces(self, flux: float) -> tuple[float, float]:
         """Return the surface temperatures [K] where the film generates ``flux`` [W/m^2]."""
         (first, second), (bulk_1, bulk_2) = self.resistance, self.bulk
-        into_first = 0.5 * flux * self.film + bulk_2 - bulk_1 + flux * second
-        into_first /= self.film + first + second
+        into_first = self.into_first(flux)
         return bulk_1 + first * into_first, bulk_2 + second * (flux - into_first)
+
+    def into_first(self, flux: float) -> float:
+        """Return the part of ``flux`` that flows into surface 1 [W/m^2]."""
+        (first, second), (bulk_1, bulk_2) = self.resistance, self.bulk
+        into_first = 0.5 * flux * self.film + bulk_2 - bulk_1 + flux * second
+        return into_first / (self.film + first + second)
 
     def mean_temperature(self, flux: float) -> float:
         """Return the mean temperature of the film [K]."""
@@ -161,6 +171,8 @@ def expected_heat(scaled: ScaledProblem, bodies: BodyEffect | None) -> ExpectedH
         stress = _shear_stress(problem, mean, pressure, sliding / film)
     flux = stress * sliding
     first, second = largest.surfaces(flux)
+    rubbed, area = _rubbed(scaled), problem.load / pressure
+    into = mean.into_first(flux)
     middle = (first + second) / 2.0 + _PEAK * flux * largest.film / 8.0
     return ExpectedHeat(
         traction=stress / pressure,
@@ -168,8 +180,41 @@ def expected_heat(scaled: ScaledProblem, bodies: BodyEffect | None) -> ExpectedH
         power=stress / pressure * problem.load * sliding,
         surface_1=first - largest.bulk[0],
         surface_2=second - largest.bulk[1],
+        heat_1=into * area + rubbed[0],
+        heat_2=(flux - into) * area + rubbed[1],
         mid_film=middle - problem.inlet_temperature,
     )
+
+
+def expected_bodies(problem: ContactProblem) -> ContactProblem | None:
+    """Return the contact between bodies as warm as to expect; None if they have no balance.
+
+    Temperatures that are stated stay.
+    """
+    if not problem.computes_bodies:
+        return problem
+
+    def heats(first: float, second: float) -> tuple[float, float] | None:
+        scaled = ScaledProblem.of(problem.with_bodies(first, second))
+        found = expected_heat(scaled, body_effect(scaled))
+        return None if found is None else (found.heat_1, found.heat_2)
+
+    try:
+        return problem.with_bodies(*balanced(problem, heats))
+    except NotBalancedError:
+        return None
+
+
+def _rubbed(scaled: ScaledProblem) -> tuple[float, float]:
+    """Return the heat of asperities into both bodies [W]."""
+    problem, law = scaled.problem, scaled.problem.asperities
+    if law is None:
+        return 0.0, 0.0
+    force = law.friction * shared_load(scaled).share * problem.load
+    solids = (problem.surface_1.material, problem.surface_2.material)
+    parts = rubbing_parts([one.conductivity or 0.0 for one in solids], problem.solid_peclet)
+    power = force * abs(problem.motion.sliding_speed)
+    return parts[0] * power, parts[1] * power
 
 
 def _heat_path(

@@ -6,7 +6,7 @@ from typing import Any
 
 from tehl.contact.heat import FilmEnergy, source_form
 from tehl.contact.options import Domain, Options
-from tehl.contact.problem import ContactProblem
+from tehl.contact.problem import HOTTEST_TEMPERATURE, ContactProblem
 from tehl.estimate.cpu_time import expected_seconds, seconds_range
 from tehl.estimate.domain import chosen_domain, domain_of, error_of_domain, planned
 from tehl.estimate.film_formulas import (
@@ -25,13 +25,25 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import check_supply, starved_degree, supply_ratio
 from tehl.estimate.summits import SharedLoad, shared_load
 from tehl.lubricant.pressure import UNCERTAINTY
-from tehl.report.expected_heat import BodyEffect, ExpectedHeat, body_effect, expected_heat
+from tehl.report.expected_heat import (
+    BodyEffect,
+    ExpectedHeat,
+    body_effect,
+    expected_bodies,
+    expected_heat,
+)
 from tehl.report.plausibility import questions
 from tehl.report.readable import UNTITLED
 from tehl.report.rendering import render
 from tehl.report.roughness import CONVERGES, RESOLVES, Asperities, asperities
 from tehl.report.transient_plan import TransientPlan, transient_plan
 
+NO_BALANCE = (
+    "thermal_resistance or cooling of a surface: by formulas the heat of the contact warms a body "
+    f"beyond {HOTTEST_TEMPERATURE:g} K; check their units"
+)
+FILMS = 6
+"""Films that are solved until the heat of the bodies is balanced: 5 to 10."""
 LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
 """Temperature rise [K] and traction coefficient below which no number is shown."""
 
@@ -62,6 +74,8 @@ class Explanation:
     """Moving source of either surface in a thermal run; None where a property is missing."""
     bodies: BodyEffect | None
     """Effect of bodies that are not at the temperature of the oil; None if they are."""
+    resistances: tuple[float | None, float | None]
+    """Thermal resistances of the bodies whose temperature is computed [K/W]."""
     heat: ExpectedHeat | None
     """Temperature rises to expect; None where the solids state too little."""
     domain: Domain
@@ -156,7 +170,8 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         With ``points = "auto"`` those expected to reach the error; None is the defaults.
     """
     asked = options or Options()
-    scaled = ScaledProblem.of(problem)
+    warm = expected_bodies(problem)
+    scaled = ScaledProblem.of(warm or problem)
     follows = planned(scaled, asked.model_copy(update={"points": "auto"}))
     options = follows if asked.points == "auto" else asked
     check_supply(scaled, domain_of(scaled, options))
@@ -181,16 +196,20 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         peclet=tuple(None if one is None else abs(one) for one in problem.solid_peclet),
         sources=_sources(problem),
         bodies=bodies,
+        resistances=problem.resistances,
         heat=heat,
         domain=domain,
         recommended_domain=wanted,
         expected_points=follows.shape[0],
         expected_error=follows.target,
         memory=needed_memory(options, problem),
-        seconds=expected_seconds(scaled, asked),
+        seconds=expected_seconds(scaled, asked) * (FILMS if problem.computes_bodies else 1),
         time=plan,
-        questions=questions(scaled, asked, heat, bodies, heights)
-        + (plan.questions if plan else ()),
+        questions=questions(
+            scaled, asked, heat, None if problem.computes_bodies else bodies, heights
+        )
+        + (plan.questions if plan else ())
+        + (() if warm else (NO_BALANCE,)),
     )
 
 
@@ -249,6 +268,7 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         "inlet_factors": [asdict(factor) for factor in inlet_factors(problem)],
         "thermal_loading": thermal_loading(problem),
         "bodies": bodies,
+        "thermal_resistances": list(case.resistances),
         "expected_heat": heat,
         "sources": list(case.sources),
         "thermal": problem.thermal is not None,

@@ -86,6 +86,25 @@ def largest_temperature_error(numbers: Numbers) -> float | None:
     return abs(known * numbers.get("temperature.film_rise_max_k") / (celsius or 1.0))
 
 
+def body_error(number: int) -> Callable[[Numbers], float | None]:
+    """Return the bar of the temperature of a body, that of its heat, over its degrees Celsius.
+
+    None where the temperature is stated.
+    """
+
+    def error(numbers: Numbers) -> float | None:
+        heat, resistance = (
+            numbers.get(f"bodies.{key}") for key in (f"heat_{number}_w", f"resistance_{number}")
+        )
+        known = numbers.get(f"errors.heat_surface_{number}")
+        if known is None or resistance is None:
+            return None
+        celsius = numbers.get(f"bodies.temperature_{number}_k") + UNITS["°C"][1]
+        return abs(known * resistance * heat / (celsius or 1.0))
+
+    return error
+
+
 def power_loss(numbers: Numbers) -> float | None:
     """Return the loss in film and solids [W]; None where `friction` is."""
     film = numbers.get("traction.friction_power_w")

@@ -11,6 +11,7 @@ from typing import Any
 
 from tehl.result.derived import (
     KAPPA,
+    body_error,
     friction,
     friction_error,
     kappa,
@@ -42,6 +43,26 @@ def _of_part(block: str, part: str, keys: str) -> Iterator[Quantity]:
     """Yield quantities that are attributes of a part of the owner of a block."""
     for key in keys.split():
         yield Quantity(f"{block}.{key}", attrgetter(f"{part}.{key}"))
+
+
+def _of_body(number: int) -> Iterator[Quantity]:
+    """Yield the quantities of a body that is heated by the contact."""
+    name = f"temperature of body {number}"
+    yield Quantity(
+        f"bodies.temperature_{number}_k",
+        error=body_error(number),
+        symbol=f"T_{number}",
+        unit="°C",
+        digits="0.0",
+        words=_words(name, "axis list page", key=f"t_{number}"),
+    )
+    yield Quantity(
+        f"bodies.heat_{number}_w",
+        error=lambda numbers: numbers.get(f"errors.heat_surface_{number}"),
+        unit="W",
+        words=_words(f"heat into body {number}", "axis list"),
+    )
+    yield Quantity(f"bodies.resistance_{number}")
 
 
 def _lists(block: str, keys: str) -> Iterator[Quantity]:
@@ -277,6 +298,9 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity("heat.surface_2_w", lambda heat: heat.balance.surface_2, name="heat_surface_2"),
     Quantity("heat.carried_out_w", lambda heat: heat.balance.carried_out, name="heat_carried_out"),
     *_lists("heat", "solid_peclet sources"),
+    *_of_body(1),
+    *_of_body(2),
+    *_plain("bodies", "balance"),
     Quantity("roughness.surface_1_sq_m", lambda rough: rough.sq[0]),
     Quantity("roughness.surface_2_sq_m", lambda rough: rough.sq[1]),
     Quantity("roughness.composite_sq_m", lambda rough: rough.composite),

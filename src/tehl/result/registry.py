@@ -19,6 +19,7 @@ OWNERS: dict[str, Callable[[Any], Any]] = {
     "traction": lambda found: found.traction,
     "traction.surroundings": lambda found: found.traction and found.traction.surroundings,
     "heat": lambda found: found.solution.heat,
+    "bodies": lambda found: found.bodies,
     "roughness": lambda found: found.rough,
     "roughness.film_quantiles": lambda found: found.rough and found.rough.quantiles,
     "roughness.ripples_x": lambda found: found.rough and found.rough.ripples_x,

@@ -204,6 +204,8 @@ class Extras:
     """Where the oil is; None if cavities do not conserve it."""
     supplied: Supplied | None = None
     """Supply over that of the flooded contact, and balance of the oil; None like ``oil``."""
+    bodies: tuple[float, float] | None = None
+    """Temperatures of both bodies that follow from their heat [K]; None where all are stated."""
     passes: PassHistory | None = None
     """Earlier passes of the same surfaces and this one; None of a single film."""
     stress: BodyStress | None = None
@@ -288,6 +290,7 @@ class Solution:
     contact = _Of[FilmContact | None]("extras")
     oil = _Of[FilmOil | None]("extras")
     supplied = _Of[Supplied | None]("extras")
+    bodies = _Of[tuple[float, float] | None]("extras")
     passes = _Of[PassHistory | None]("extras")
     stress = _Of[BodyStress | None]("extras")
     dynamics = _Of[FilmDynamics | None]("extras")
@@ -311,9 +314,14 @@ class Solution:
         return self.scales.load * (1.0 if transient is None else transient.load_at(0.0))
 
     @property
+    def solved_problem(self) -> ContactProblem:
+        """The problem between bodies of the temperatures that were computed, if any were."""
+        return self.problem if self.bodies is None else self.problem.with_bodies(*self.bodies)
+
+    @property
     def scaled_problem(self) -> ScaledProblem:
         """The problem with its scales and dimensionless groups."""
-        scaled = ScaledProblem(problem=self.problem, scales=self.scales, groups=self.groups)
+        scaled = ScaledProblem(problem=self.solved_problem, scales=self.scales, groups=self.groups)
         known = self.supplied
         if known is None:
             return scaled

@@ -92,7 +92,7 @@ def solve(
     guess: Solution | None = None,
     monitor: Monitor = SILENT,
 ) -> Solution:
-    """Solve a steady contact by full multigrid.
+    """Solve a steady contact between bodies of stated temperatures, by full multigrid.
 
     Parameters
     ----------

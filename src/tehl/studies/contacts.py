@@ -61,6 +61,7 @@ _WORDS = {
         "radius_x": "radius_x r_x rx",
         "radius_y": "radius_y r_y ry",
         "temperature": "temperature t",
+        "thermal_resistance": "thermal_resistance r_th rth",
     }.items()
 }
 _KEYS = {word: key for key, words in _WORDS.items() for word in words.split()}
@@ -72,6 +73,10 @@ _ALTERNATIVES = (
     ("surface_1.rms_roughness", "surface_1.ra_roughness"),
     ("surface_2.rms_roughness", "surface_2.ra_roughness"),
     ("numerics.error", "numerics.points"),
+    *(
+        tuple(f"surface_{side}.{key}" for key in ("temperature", "thermal_resistance", "cooling"))
+        for side in (1, 2)
+    ),
 )
 """Keys of which a case states one: a row that states another removes that of the template."""
 _SIGNS = str.maketrans({"µ": "u", "μ": "u", "²": "^2", "³": "^3", "·": " ", "⋅": " ", "−": "-"})

@@ -20,7 +20,7 @@ from tehl.solver.judging.richardson import (
 )
 from tehl.solver.judging.verdict import LARGEST_FILM_BAR, too_coarse
 from tehl.solver.monitor import SILENT, Monitor
-from tehl.solver.steady import solve
+from tehl.solver.physics.bodies import solve
 
 LARGER_DOMAIN_FACTOR = 2
 """Size of the larger domain over that of the result."""
