@@ -206,5 +206,5 @@ def test_the_shell_completes_subcommands_once_installed(tmp_path):
     done = _completing(tmp_path, "--install-completion", "bash")
     assert done.returncode == 0, done.stderr
     assert "_TEHL_COMPLETE" in (tmp_path / ".bash_completions" / "tehl.sh").read_text()
-    words = {"COMP_WORDS": "tehl so", "COMP_CWORD": "1", "_TEHL_COMPLETE": "complete_bash"}
+    words = {"COMP_WORDS": "tehl solv", "COMP_CWORD": "1", "_TEHL_COMPLETE": "complete_bash"}
     assert _completing(tmp_path, **words).stdout.split() == ["solve"]

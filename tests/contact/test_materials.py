@@ -1,12 +1,10 @@
 """Solids and the library of named ones."""
 
 import re
-import tomllib
 
 import pytest
 
 from tehl.base.errors import InputError
-from tehl.base.named import read_tables
 from tehl.contact.materials import SOLIDS, Solid, material, reduced_modulus
 from tehl.lubricant.fluid import OILS
 
@@ -24,7 +22,7 @@ def test_a_rigid_partner_leaves_twice_the_compliance_of_the_other():
     assert reduced_modulus(soft, rigid) == pytest.approx(2.0 * 1e9 / 0.75)
 
 
-@pytest.mark.parametrize("name", list(read_tables(SOLIDS)))
+@pytest.mark.parametrize("name", list(SOLIDS.entries()))
 def test_every_named_solid_is_complete_and_has_a_source(name: str):
     solid = material(name)
     assert solid.name == name
@@ -37,10 +35,9 @@ def test_a_solid_without_thermal_properties_has_no_diffusivity():
     assert Solid(young_modulus=1e9, poisson_ratio=0.3).diffusivity is None
 
 
-def test_an_unknown_name_lists_the_known_and_suggests_one():
-    with pytest.raises(InputError, match="did you mean steel") as caught:
+def test_an_unknown_name_suggests_one_and_says_what_lists_them():
+    with pytest.raises(InputError, match=r"did you mean steel.* tehl solids lists 24"):
         material("steal")
-    assert "silicon-nitride" in str(caught.value)
 
 
 @pytest.mark.parametrize("ratio", [0.6, -1.0, float("nan")])
@@ -68,8 +65,7 @@ def test_a_solid_is_found_by_other_names(alias: str, name: str):
 
 
 def test_no_two_tables_have_one_name():
-    for path in (SOLIDS, OILS):
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
-        words = [w for name, one in tables.items() for w in (name, *one.get("aliases", ()))]
+    for library in (SOLIDS, OILS):
+        words = [word for one in library.entries().values() for word in one.words]
         plain = [re.sub(r"[\W_]+", "", word.lower()) for word in words]
         assert len(set(plain)) == len(plain)

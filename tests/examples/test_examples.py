@@ -74,6 +74,12 @@ def test_the_film_grows_with_the_speed_as_formulas_say():
     assert power == pytest.approx(0.685, abs=0.02)
 
 
+def test_the_film_follows_the_kind_of_oil():
+    found = example("base_oils").main()
+    assert found["pao-iso-100"] == pytest.approx(234.3, rel=1e-2)
+    assert found["pao-iso-100"] < found["fva-3"] < found["polyglycol-vg-100"]
+
+
 def test_a_sliding_ball_is_warm_and_its_heat_is_accounted_for():
     found = example("thermal_ball_on_disc").main()
     assert found["traction at mid-film [-]"] == pytest.approx(-0.0380, rel=1e-2)

@@ -74,7 +74,7 @@ MISTAKES = [
     ("contact=3", "contact = 3", "must be a table"),
     ("surface_1=steel", 'surface_1 = "steel"', "must be a table"),
     ("surface_1.material=stel", "surface_1.material", "did you mean steel?"),
-    ("surface_1.material=unobtainium", "known are steel, case-hardening-steel", "young_modulus"),
+    ("surface_1.material=unobtainium", "tehl solids lists 24, such as steel", "young_modulus"),
     ("surface_2.material.poisson_ratio=0.7", "surface_2.material.poisson_ratio = 0.7", "at most"),
     ("surface_1.radius=10 mm", "radii are stated twice", "reduced"),
     ("surface_1.rms_roughness=-1 nm", "surface_1.rms_roughness", "not be negative"),

@@ -39,7 +39,7 @@ def test_the_schema_has_every_law_and_the_thermal_keys():
     thermal = parts["Thermal"]["properties"]
     assert set(thermal) == {"temperature", "reynolds", "layers", "scheme", "sources"}
     assert thermal["scheme"]["enum"] == ["chebyshev", "uniform"]
-    assert parts["OilByName"]["required"] == ["name"]
+    assert parts["OilByName"]["anyOf"] == [{"required": ["oil"]}, {"required": ["name"]}]
     assert "temperature" in parts["Surface"]["properties"]
 
 

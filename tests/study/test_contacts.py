@@ -65,7 +65,7 @@ def command(*words):
         ("Ra 1 [µm]", "surface_1.ra_roughness", "um"),
         ("surface_2.rms_roughness [um]", "surface_2.rms_roughness", "um"),
         ("numerics.points", "numerics.points", ""),
-        ("oil", "lubricant.name", ""),
+        ("oil", "lubricant.oil", ""),
         ("remark", None, ""),
     ],
 )

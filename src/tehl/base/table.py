@@ -1,9 +1,10 @@
 """Tables of case and study files: constant models whose mistakes are one sentence."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo
 
 from tehl.base.mistakes import of_call
 
@@ -37,3 +38,10 @@ class Table(BaseModel, metaclass=_OneSentence):
     """Other words for a key, in lower case; a key of another table has its path."""
     not_tables: ClassVar[Mapping[str, str]] = {}
     """What to write for keys whose tables are taken for a number or a word."""
+
+
+def folder_of(info: ValidationInfo) -> Path | None:
+    """Return the folder of the case that is validated, None if it has none."""
+    context: Any = info.context
+    folder = context.get("folder") if isinstance(context, dict) else None
+    return None if folder is None else Path(folder)

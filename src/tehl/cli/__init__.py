@@ -21,6 +21,8 @@ COMMANDS = {
     "export": "results",
     "report": "results",
     "surface": "surface",
+    "oils": "library",
+    "solids": "library",
     "doctor": "doctor",
     "schema": "case",
 }

@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     from tehl.api import problem as problems
     from tehl.api import results, solvers
     from tehl.base import mistakes, units
+    from tehl.base import named as libraries
+    from tehl.contact import materials as solid_library
     from tehl.contact import options as numerics
     from tehl.estimate import scaling
     from tehl.explore import case_text, server
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from tehl.io import templates as case_templates
     from tehl.kernels import cache as kernel_cache
     from tehl.kernels import samples, warmup
+    from tehl.lubricant import fluid as oil_library
     from tehl.plots import animation
     from tehl.plots import surface as surface_pictures
     from tehl.post import layer as layers
@@ -35,7 +38,9 @@ else:
     solvers = lazy("tehl.api.solvers")
     mistakes = lazy("tehl.base.mistakes")
     units = lazy("tehl.base.units")
+    libraries = lazy("tehl.base.named")
     numerics = lazy("tehl.contact.options")
+    solid_library = lazy("tehl.contact.materials")
     scaling = lazy("tehl.estimate.scaling")
     case_text = lazy("tehl.explore.case_text")
     server = lazy("tehl.explore.server")
@@ -47,6 +52,7 @@ else:
     kernel_cache = lazy("tehl.kernels.cache")
     samples = lazy("tehl.kernels.samples")
     warmup = lazy("tehl.kernels.warmup")
+    oil_library = lazy("tehl.lubricant.fluid")
     plots = lazy("tehl.plots")
     animation = lazy("tehl.plots.animation")
     surface_pictures = lazy("tehl.plots.surface")

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic import BeforeValidator, Field, ValidationInfo
 
 from tehl.base.errors import InputError
-from tehl.base.named import find_table, known_names, read_tables
-from tehl.base.table import Table
+from tehl.base.named import Library
+from tehl.base.table import Table, folder_of
 from tehl.base.units import Pressure, SolidConductivity, SolidDensity, SolidHeatCapacity
 
 
@@ -55,33 +55,57 @@ def reduced_modulus(first: Solid, second: Solid) -> float:
     return 2.0 / (first.compliance + second.compliance)
 
 
-SOLIDS = Path(__file__).with_name("materials.toml")
-_NEEDS = "young_modulus and poisson_ratio"
+SOLIDS = Library(
+    Path(__file__).with_name("solids.toml"),
+    "solid",
+    "solid",
+    "young_modulus and poisson_ratio",
+    Solid,
+)
 
 
 def material(name: str) -> Solid:
-    """Return the solid called ``name``.
+    """Return the solid called ``name``, of the package or of the user's own library.
 
     Raises
     ------
     InputError
-        If the library does not have it; the message lists what it has.
+        If no library has it.
     """
     try:
-        return Solid.model_validate(_by_name(name))
+        return Solid.model_validate(SOLIDS.find(name).table)
     except ValueError as error:
         raise InputError(f"{name!r} {error}") from None
 
 
-def _by_name(value: object) -> object:
-    """Return the table of a name; a table is returned unchanged."""
-    if isinstance(value, Mapping | Solid):
-        return value
-    if not isinstance(value, str):
-        known = ", ".join(read_tables(SOLIDS))
-        raise ValueError(f"must be the name of a solid ({known}) or a table with {_NEEDS}")
-    return find_table(SOLIDS, value, "solid", _NEEDS)
+def _by_name(value: object, info: ValidationInfo) -> object:
+    """Return the table of a named solid, with what the case adds; others as they are."""
+    folder = folder_of(info)
+    if isinstance(value, str | Mapping | Solid):
+        return SOLIDS.stated(value, folder)
+    known = SOLIDS.listed(folder)
+    raise ValueError(f"must be the name of a solid ({known}) or a table with {SOLIDS.needs}")
 
 
-SolidName = Annotated[str, WithJsonSchema(known_names(SOLIDS))]
-NamedSolid = Annotated[Solid, BeforeValidator(_by_name, json_schema_input_type=SolidName | Solid)]
+SolidName = Annotated[str, SOLIDS]
+
+
+class SolidByName(Table):
+    """A named solid with what replaces its own, as the JSON schema of a case shows it."""
+
+    solid: SolidName | str
+    """Of the package, or of ``solids.toml`` beside the case or in the configuration folder."""
+    young_modulus: Pressure | None = None
+    poisson_ratio: float | None = None
+    density: SolidDensity | None = None
+    heat_capacity: SolidHeatCapacity | None = None
+    conductivity: SolidConductivity | None = None
+    hardness: Pressure | None = None
+    transparent: bool | None = None
+    name: str | None = None
+    source: str | None = None
+
+
+NamedSolid = Annotated[
+    Solid, BeforeValidator(_by_name, json_schema_input_type=SolidName | Solid | SolidByName)
+]

@@ -8,7 +8,6 @@ from typing import Any
 import tomlkit
 
 from tehl.base.errors import InputError
-from tehl.base.named import find_table
 from tehl.contact.materials import SOLIDS
 from tehl.io.case import replaced_by, tables_of_text, text_of
 from tehl.io.templates import template_text
@@ -19,7 +18,7 @@ LARGEST_TEXT = 200_000
 """Characters of the text of a case; one with more is not a case that a person wrote."""
 LONGEST_ADDRESS = 60_000
 """Characters of a case in an address; servers and mail programs cut longer ones."""
-_WITHOUT = ("name", "source", "aliases")
+_WITHOUT = ("name", "source", "limits")
 """Keys of a named solid or oil that do not hold any more once it is edited."""
 _SHEAR = {"law": "limiting", "slope": 0.05}
 """Shear law of the page where a template states the Newtonian one."""
@@ -147,9 +146,8 @@ def _table(path: list[str], stated: Any) -> Any:
 
 def named_table(key: str, name: str) -> dict[str, Any]:
     """Return the properties of a named oil (key ``lubricant``) or solid, to be edited."""
-    file, kind = (OILS, "oil") if key == "lubricant" else (SOLIDS, "solid")
     try:
-        found = find_table(file, name, kind, "its properties")
+        found = (OILS if key == "lubricant" else SOLIDS).find(name).table
     except ValueError as error:
         raise InputError(f'{key} = "{name}" {error}') from None
     return {key: value for key, value in found.items() if key not in _WITHOUT}

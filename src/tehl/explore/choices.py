@@ -10,7 +10,6 @@ from functools import cached_property
 from typing import Any
 
 from tehl.api.problem import ContactProblem
-from tehl.base.named import read_tables
 from tehl.contact.materials import SOLIDS
 from tehl.contact.problem import SURFACES
 from tehl.estimate.scaling import ScaledProblem
@@ -118,7 +117,7 @@ def material(state: State, *, number: int) -> Choice:
     """Return the choice of the material of a body."""
     path = f"surface_{number}.material"
     stated = state.case.get(path)
-    options = _values(path, {name: (name.replace("-", " "), name) for name in read_tables(SOLIDS)})
+    options = _values(path, {name: (name.replace("-", " "), name) for name in SOLIDS.entries()})
     own = {path: named_table("material", stated)} if isinstance(stated, str) else {}
     named = getattr(state.problem, f"surface_{number}").material.name or OWN
     chosen = OWN if isinstance(stated, Mapping) else named
@@ -128,7 +127,7 @@ def material(state: State, *, number: int) -> Choice:
 def oil(state: State) -> Choice:
     """Return the choice of the oil; its shear law stays."""
     stated, shear_law = state.case.get("lubricant"), state.case.get("lubricant.shear")
-    oils, chosen = read_tables(OILS), OWN
+    oils, chosen = OILS.entries(), OWN
     if isinstance(stated, str) or (isinstance(stated, Mapping) and "viscosity" not in stated):
         chosen = state.problem.lubricant.name or OWN
     elif state.problem.lubricant.viscosity.law == "walther":

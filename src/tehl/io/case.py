@@ -17,8 +17,10 @@ from tehl.base.lists import plain_value
 from tehl.base.mistakes import describe
 from tehl.base.units import Quantity, percentage
 from tehl.base.wording import short, shown
+from tehl.contact.materials import SOLIDS
 from tehl.contact.options import NUMERICS, Options
 from tehl.contact.problem import ContactProblem
+from tehl.lubricant.fluid import OILS
 from tehl.roughness import Map, Sum
 
 if TYPE_CHECKING:
@@ -30,6 +32,8 @@ _LARGEST_CASE = 10**6
 """Bytes of a case file."""
 _MOST_KEYS = 8
 """Parts of the key path of an override."""
+_LIBRARIES = {"lubricant": OILS.key, "material": SOLIDS.key}
+"""Keys whose value may be a name, and the key that starts from this name in a table."""
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -176,7 +180,7 @@ def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
     tables : mapping
         Tables of a case.
     path : str
-        Dotted path; a name on the way, such as that of an oil, becomes the table with this name.
+        Dotted path; a name on the way, such as that of an oil, becomes a table that starts from it.
     value
         The value; ``False`` removes the key.
     """
@@ -185,7 +189,7 @@ def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
     if deeper:
         below = after.get(key, {})
         if isinstance(below, str):
-            below = {"name": below}
+            below = from_name(key, below)
         if not isinstance(below, Mapping):
             raise ValueError(f"{path} goes through {key}, which is not a table in the base case")
         after[key] = changed(below, deeper, value)
@@ -195,6 +199,11 @@ def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
     else:
         after[key] = value
     return after
+
+
+def from_name(key: str, name: str) -> dict[str, Any]:
+    """Return the table that starts from the oil or the solid called ``name``."""
+    return {_LIBRARIES.get(key, "name"): name}
 
 
 def found_at(problem: ContactProblem, options: Options, path: str) -> tuple[Any, Quantity | None]:
@@ -279,7 +288,9 @@ def change(tables: dict[str, Any], override: str) -> None:
         )
     node = tables
     for name in names[:-1]:
-        node = node.setdefault(name, {})
+        above, node = node, node.setdefault(name, {})
+        if isinstance(node, str) and name in _LIBRARIES:
+            node = above[name] = from_name(name, node)
         if not isinstance(node, dict):
             raise InputError(f"invalid override {shown(override)}: {short(name)} is not a table")
     value, whole = plain_value(text), isinstance(node.get(names[-1]), dict)

@@ -1,6 +1,5 @@
 """The lubricant: its laws and thermal properties, and the library of named oils."""
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
@@ -8,19 +7,19 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import (
     BaseModel,
     BeforeValidator,
+    ConfigDict,
     Discriminator,
     Field,
     Tag,
     ValidationInfo,
-    WithJsonSchema,
     field_validator,
 )
 
 from tehl.base.errors import InputError
-from tehl.base.named import find_table, known_names, read_tables
-from tehl.base.table import Table
+from tehl.base.named import Library
+from tehl.base.table import Table, folder_of
 from tehl.base.typing import Array
-from tehl.base.units import Conductivity, HeatCapacity, PressureCoefficient, Temperature
+from tehl.base.units import Conductivity, HeatCapacity, Pressure, PressureCoefficient, Temperature
 from tehl.lubricant.density import DensityLaw
 from tehl.lubricant.law import Law
 from tehl.lubricant.shear import Newtonian, ShearLaw
@@ -61,6 +60,15 @@ class HeatCapacityOfPressure(Law):
     volume: most of its growth is that of the density, and the one of a mass hardly changes."""
 
 
+class Limits(Table):
+    """Conditions in which the constants of an oil are known."""
+
+    temperature: tuple[Temperature, Temperature] | None = None
+    """Lowest and highest temperature [K]."""
+    pressure: Pressure | None = None
+    """Largest pressure [Pa]."""
+
+
 def _number_or_table(value: object) -> str:
     return "table" if isinstance(value, Mapping | BaseModel) else "number"
 
@@ -86,7 +94,7 @@ class Lubricant(Law):
         "shear.stress": "eyring_stress shear_stress limiting_shear_stress",
         "heat_capacity": "cp specific_heat",
         "temperature": "inlet_temperature oil_temperature",
-        "name": "grade oil",
+        "name": "grade",
     }
 
     density: DensityLaw
@@ -106,6 +114,8 @@ class Lubricant(Law):
     name: str | None = None
     source: str | None = None
     """Where the numbers come from."""
+    limits: Limits | None = None
+    """Where the constants hold; `tehl explain` asks about contacts outside."""
 
     @field_validator("viscosity", mode="after")
     @classmethod
@@ -155,55 +165,59 @@ def _grown(stated: Property, name: str, pressure: Array) -> Array:
     return stated + 0.0 * pressure
 
 
-OILS = Path(__file__).with_name("oils.toml")
-OilName = Annotated[str, WithJsonSchema(known_names(OILS))]
+OILS = Library(
+    Path(__file__).with_name("oils.toml"), "oil", "oil", "viscosity and density", Lubricant
+)
+OilName = Annotated[str, OILS]
 _LAWS = {"viscosity", "density"}
 
 
 def oil(name: str) -> Lubricant:
-    """Return the oil called ``name``.
+    """Return the oil called ``name``, of the package or of the user's own library.
 
     Raises
     ------
     InputError
-        If the library does not have it; the message lists what it has.
+        If no library has it.
     """
     try:
-        return Lubricant.model_validate(_by_name(name))
+        return Lubricant.model_validate(OILS.find(name).table)
     except ValueError as error:
         raise InputError(f"{name!r} {error}") from None
 
 
-def _by_name(value: object) -> object:
-    """Return the table of a named oil, with what a table of that name adds; others as they are."""
-    if isinstance(value, str):
-        return _named(value)
-    if isinstance(value, Mapping) and isinstance(value.get("name"), str) and not _LAWS & set(value):
-        try:
-            return _named(value["name"]) | dict(value)
-        except ValueError as error:
-            raise ValueError(f"name = {json.dumps(value['name'])} {error}") from None
-    if isinstance(value, Mapping | Lubricant):
-        return value
-    known = ", ".join(read_tables(OILS))
+def _by_name(value: object, info: ValidationInfo) -> object:
+    """Return the table of a named oil, with what the case adds; others as they are."""
+    folder = folder_of(info)
+    if isinstance(value, str | Mapping | Lubricant):
+        alone = isinstance(value, Mapping) and not {OILS.key, *_LAWS} & set(value)
+        return OILS.stated(value, folder, "name" if alone else OILS.key)
+    known = OILS.listed(folder)
     raise ValueError(f"must be the name of an oil ({known}) or a table with viscosity and density")
 
 
-def _named(name: str) -> dict[str, Any]:
-    return find_table(OILS, name, "oil", "viscosity and density")
-
-
 class OilByName(Table):
-    """A named oil with what is added to it, as the JSON schema of a case shows it."""
+    """A named oil with what replaces its own, as the JSON schema of a case shows it."""
 
-    name: OilName
-    shear: ShearLaw = Newtonian()
+    model_config = ConfigDict(
+        json_schema_extra={"anyOf": [{"required": ["oil"]}, {"required": ["name"]}]}
+    )
+
+    oil: OilName | str | None = None
+    """Of the package, or of ``oils.toml`` beside the case or in the configuration folder."""
+    viscosity: dict[str, Any] | None = None
+    density: dict[str, Any] | None = None
+    """Single constants, or another law."""
+    shear: ShearLaw | None = None
     conductivity: AnyConductivity | None = None
     heat_capacity: AnyHeatCapacity | None = None
     temperature: Temperature | None = None
+    name: OilName | str | None = None
+    """Its name in outputs; that of a known oil if ``oil`` is left out."""
+    source: str | None = None
 
 
 NamedLubricant = Annotated[
     Lubricant, BeforeValidator(_by_name, json_schema_input_type=OilName | Lubricant | OilByName)
 ]
-"""An oil: by its name, by its laws, or by its name with additions such as ``temperature``."""
+"""An oil: by its name, by its laws, or by a name with other constants or a ``temperature``."""

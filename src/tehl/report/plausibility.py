@@ -105,6 +105,7 @@ def questions(
     return (
         *(question for question in ranges if question),
         *_about_groove(scaled.problem),
+        *_about_limits(scaled.problem),
         *_about_film(scaled),
         *_about_sliding(scaled.problem),
         *_about_heat(scaled.problem, heat),
@@ -201,6 +202,24 @@ def _ranges_of_oil(problem: ContactProblem) -> Iterator[Typical]:
     if problem.thermal is not None:
         fall, hint = problem.temperature_coefficient, "most oils have 0.02 to 0.06"
         yield Typical("-d ln eta/dT of the oil", fall, 0.005, 0.12, "1/K", hint)
+
+
+def _about_limits(problem: ContactProblem) -> Iterator[str]:
+    """Yield conditions in which the constants of the oil are not known."""
+    oil, inlet, highest = problem.lubricant, problem.inlet_temperature, problem.hertz.pressure
+    limits, name = oil.limits, oil.name or "the oil"
+    if limits is not None and limits.temperature is not None:
+        low, high = limits.temperature
+        if not low <= inlet <= high:
+            yield (
+                f"temperature of the oil at the inlet = {inlet:.4g} K: the constants of {name} are "
+                f"known from {low:.4g} to {high:.4g} K"
+            )
+    if limits is not None and limits.pressure is not None and highest > limits.pressure:
+        yield (
+            f"Hertz pressure = {highest / 1e9:.3g} GPa: the constants of {name} are known up to "
+            f"{limits.pressure / 1e9:.3g} GPa"
+        )
 
 
 def _about_film(scaled: ScaledProblem) -> Iterator[str]:

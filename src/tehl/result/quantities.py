@@ -114,6 +114,7 @@ DYNAMICS = (
 )
 """Keys of a row over frequency: fields of `tehl.result.fields.FilmDynamics` with their units."""
 QUANTITIES: tuple[Quantity, ...] = (
+    Quantity("laws.oil", lambda problem: problem.lubricant.name),
     Quantity("laws.viscosity", lambda problem: problem.lubricant.viscosity.law),
     Quantity(
         "laws.viscosity_temperature",

@@ -1,11 +1,11 @@
 """What a case states about a measured surface: its file and how its heights are prepared."""
 
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Literal, Self
 
 from pydantic import ValidationInfo, field_validator, model_validator
 
-from tehl.base.table import Table
+from tehl.base.table import Table, folder_of
 from tehl.base.units import Angle, Height, PositiveNumber
 from tehl.roughness.model import Edge, Lengths, LengthUnit, Position, Span, TileModel, Wavelength
 
@@ -82,12 +82,11 @@ class MapSettings(TileModel):
     @classmethod
     def _beside_the_case(cls, file: str, info: ValidationInfo) -> str:
         """Take a relative path from the folder that the context of the validation names."""
-        context: Any = info.context
-        folder = context.get("folder") if isinstance(context, dict) else None
+        folder = folder_of(info)
         if not file.strip():
             raise ValueError('is not the name of a file: give one such as "surface.x3p"')
         known = Path(file).expanduser()
-        return file if folder is None or known.is_absolute() else str(Path(folder) / known)
+        return file if folder is None or known.is_absolute() else str(folder / known)
 
     @model_validator(mode="after")
     def _must_agree(self) -> Self:

@@ -20,7 +20,7 @@ from tehl.base.lists import check_package, lines_of_sheet, numbered_lines, strip
 from tehl.base.mistakes import key_paths
 from tehl.base.units import is_unit
 from tehl.contact.options import Options
-from tehl.io.case import plain_value, toml_tables
+from tehl.io.case import from_name, plain_value, toml_tables
 from tehl.io.templates import template_text
 from tehl.studies.case import Case
 
@@ -42,7 +42,7 @@ _WORDS = {
     "contact.radius_x": "r_x rx radius_x reduced_radius_x",
     "contact.radius_y": "r_y ry radius_y reduced_radius_y",
     "lubricant.temperature": "temperature oil_temperature inlet_temperature t_oil t",
-    "lubricant.name": "oil lubricant",
+    "lubricant.oil": "oil lubricant",
     "lubricant.viscosity.nu_40": "nu_40 nu40 kv40 kv_40 viscosity_40",
     "lubricant.viscosity.nu_100": "nu_100 nu100 kv100 kv_100 viscosity_100",
     "lubricant.viscosity.eta_0": "eta_0 eta eta0 viscosity dynamic_viscosity",
@@ -368,7 +368,7 @@ def _tables_of(base: dict[str, Any], stated: Mapping[str, Any]) -> dict[str, Any
     tables = copy.deepcopy(base)
     for key in _replaced(stated):
         _remove(tables, key)
-    if "lubricant.name" in stated:
+    if "lubricant.oil" in stated:
         temperature = _found(tables, "lubricant.temperature")
         tables["lubricant"] = {} if temperature is None else {"temperature": temperature}
     for key, value in stated.items():
@@ -405,7 +405,7 @@ def _set(tables: dict[str, Any], key: str, value: Any) -> None:
     for part in parents:
         node = tables.get(part)
         if isinstance(node, str):  # the name of an oil or of a law
-            node = {"name": node}
+            node = from_name(part, node)
         tables[part] = node = {} if node is None else node
         tables = node
     tables[last] = value
