@@ -127,7 +127,7 @@ def test_false_leaves_a_key_out_and_a_name_becomes_a_table():
     base = {"lubricant": "mineral-oil", "thermal": {"layers": 9}}
     assert changed(base, "thermal", value=False) == {"lubricant": "mineral-oil"}
     sheared = changed(base, "lubricant.shear", {"law": "newtonian"})
-    assert sheared["lubricant"] == {"name": "mineral-oil", "shear": {"law": "newtonian"}}
+    assert sheared["lubricant"] == {"oil": "mineral-oil", "shear": {"law": "newtonian"}}
     assert base == {"lubricant": "mineral-oil", "thermal": {"layers": 9}}
 
 

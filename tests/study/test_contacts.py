@@ -101,8 +101,8 @@ def test_a_row_that_states_another_key_removes_that_of_the_template(template):
         "radius_x": "5 mm",
     }
     assert base["contact"]["load"] == "20 N"
-    tables = _tables_of(base, {"lubricant.name": "iso-vg-68", "surface_1.radius": "4 mm"})
-    assert tables["lubricant"] == {"name": "iso-vg-68"}
+    tables = _tables_of(base, {"lubricant.oil": "iso-vg-68", "surface_1.radius": "4 mm"})
+    assert tables["lubricant"] == {"oil": "iso-vg-68"}
     assert tables["surface_1"] == {"material": "steel", "radius": "4 mm"}
 
 
