@@ -16,6 +16,7 @@ from tehl.lubricant import (
     RoelandsExponential,
     TaitDoolittle,
     ViscosityLaw,
+    ViscosityModel,
     Walther,
 )
 from tehl.lubricant.law import LARGEST_LAW_EXPONENT
@@ -84,6 +85,16 @@ def test_no_pressure_overflows(law: ViscosityLaw, pressure: float):
     assert np.isfinite(value).all()
     assert value.max() <= law.eta_0 * math.exp(LARGEST_LAW_EXPONENT) * (1 + 1e-9)
     assert value.min() >= law.eta_0 * (1 - 1e-9)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("temperature", [300.0, 360.0])
+def test_coefficients_without_a_formula_are_differences(law, temperature):
+    by_pressure = ViscosityModel.pressure_coefficient_at(law, temperature)
+    # Roelands' rounded constants: 5.1e-9 times 1.96e8 is 0.9996
+    assert by_pressure == pytest.approx(law.pressure_coefficient_at(temperature), rel=5e-4)
+    by_heat = ViscosityModel.temperature_coefficient_at(law, temperature)
+    assert by_heat == pytest.approx(law.temperature_coefficient_at(temperature), rel=1e-6)
 
 
 @pytest.mark.parametrize("law", LAWS)

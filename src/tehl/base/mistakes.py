@@ -140,13 +140,19 @@ def _models(annotation: object) -> Iterator[Model]:
         yield from _models(argument)
 
 
+def _added(field: FieldInfo) -> Iterator[Model]:
+    """Yield the models that notes on a field add to its annotation."""
+    for note in field.metadata:
+        yield from getattr(note, "models", ())
+
+
 def _models_at(root: Model, path: KeyPath) -> list[list[Model]]:
     """Return the possible models of each step of ``path``, the root first."""
     steps = [[root]]
     for key in path:
         field = _field(steps[-1], key)
         inside = steps[-1] if isinstance(key, int) else []
-        steps.append(list(_models(field.annotation)) if field else inside)
+        steps.append([*_models(field.annotation), *_added(field)] if field else inside)
     return steps
 
 
@@ -248,7 +254,9 @@ def _discriminator_missing(mistake: _Mistake) -> str:
 def _discriminator_unknown(mistake: _Mistake) -> str:
     tag = mistake.error["ctx"]["tag"]
     known = re.findall(r"'([^']+)'", mistake.error["ctx"]["expected_tags"])
-    name = f"{mistake.name}.{_discriminator(mistake)}"
+    key = _discriminator(mistake)
+    known += [word for one in mistake.models[-1] for word in _tags(one, key) if word not in known]
+    name = f"{mistake.name}.{key}"
     return f"{name} = {shown(tag)}: unknown; {suggestion_for(str(tag), known)}"
 
 

@@ -23,6 +23,7 @@ from tehl.contact.bodies import reduced_radius
 from tehl.contact.boundary_contact import THICKEST_BOUNDARY_FILM, THINNEST_BOUNDARY_FILM
 from tehl.contact.point_contact import Contact, PointContact, Surface
 from tehl.contact.summits import GreenwoodTripp
+from tehl.lubricant.registered import package_of
 
 __all__ = ["Contact", "ContactProblem", "Surface"]
 
@@ -87,19 +88,21 @@ def check(problem: PointContact) -> None:
 
 
 def _check_classes(table: BaseModel, path: str) -> None:
-    """Check that laws and surfaces are those of this package, which a file can store."""
+    """Check that laws and surfaces are those of this package or registered: a file names them."""
     for name in type(table).model_fields:
         value, key = getattr(table, name), f"{path}{name}"
         if not isinstance(value, BaseModel):
             continue
         kind = type(value)
-        if kind.__module__.partition(".")[0] != __name__.partition(".")[0]:
+        if kind.__module__.partition(".")[0] == __name__.partition(".")[0]:
+            _check_classes(value, f"{key}.")
+        elif package_of(value) is None:
             raise ValueError(
                 f"{key} = {kind.__qualname__}: own classes are not supported, as a result file "
                 f"would store its parent {kind.__base__.__name__ if kind.__base__ else ''}; use a "
-                "law of tehl.lubricant or a surface of tehl.roughness"
+                "law of tehl.lubricant or a surface of tehl.roughness, or register a law in the "
+                "entry-point group tehl.laws"
             )
-        _check_classes(value, f"{key}.")
 
 
 def check_size(problem: PointContact) -> None:

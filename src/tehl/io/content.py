@@ -16,6 +16,7 @@ from tehl.contact.problem import ContactProblem
 from tehl.io import tables
 from tehl.io.summary import summary
 from tehl.io.tables import Column
+from tehl.lubricant.registered import is_registered, package_of
 from tehl.result.bars import ErrorEstimate
 from tehl.result.fields import (
     BodyStress,
@@ -204,7 +205,9 @@ def attributes(result: Solution | TransientSolution) -> Attributes:
     if isinstance(result, TransientSolution):
         own |= {"tehl_kind": TRANSIENT, "transient": _dumped(TransientSolution, result)}
         return attributes(result.start) | own
-    heat = {} if result.heat is None else {"heat": _dumped(FilmHeat, result.heat)}
+    parts = {} if result.heat is None else {"heat": _dumped(FilmHeat, result.heat)}
+    if packages := _packages(result.problem):
+        parts["laws"] = json.dumps(packages)
     return own | {
         "tehl_format": FORMAT_VERSION,
         "title": result.problem.title,
@@ -215,8 +218,24 @@ def attributes(result: Solution | TransientSolution) -> Attributes:
         "problem": _json(result.problem),
         "options": _json(result.options),
         "state": _dumped(Solution, result),
-        **heat,
+        **parts,
     }
+
+
+def _packages(problem: ContactProblem) -> dict[str, tuple[str, str]]:
+    """Return the laws that are not of this package by their keys, each with its package."""
+    oil = problem.lubricant
+    laws: dict[str, Any] = {"viscosity": oil.viscosity, "density": oil.density, "shear": oil.shear}
+    owners = {part: (law.law, package_of(law)) for part, law in laws.items()}
+    return {part: (law, owner) for part, (law, owner) in owners.items() if owner is not None}
+
+
+def missing_law(attrs: Attributes) -> str | None:
+    """Return which law of a file is not installed, and whose it is; None if all are."""
+    for part, (law, owner) in json.loads(attrs.get("laws", "{}")).items():
+        if not is_registered(law):
+            return f'lubricant.{part}.law = "{law}" of the package {owner}'
+    return None
 
 
 def _json(model: BaseModel) -> str:

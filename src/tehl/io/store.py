@@ -17,6 +17,7 @@ from tehl.io.content import (
     Attributes,
     Variable,
     attributes,
+    missing_law,
     rebuild,
     variables,
 )
@@ -138,6 +139,8 @@ def load(path: str | Path) -> Solution | TransientSolution:
     arrays, attrs = _read(source)
     _check_kind(source, attrs)
     try:
+        if law := missing_law(attrs):
+            raise FileFormatError(f"{source} has {law}: install it to read this file")
         return rebuild(arrays, attrs)
     except KeyError as error:
         raise FileFormatError(

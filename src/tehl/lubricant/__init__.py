@@ -2,8 +2,9 @@
 
 from tehl.lubricant.density import ConstantDensity, DensityLaw, DowsonHigginson
 from tehl.lubricant.fluid import Lubricant, NamedLubricant, oil
+from tehl.lubricant.law import DensityModel, ExponentialFall, ViscosityModel
 from tehl.lubricant.roelands import Roelands, RoelandsExponential
-from tehl.lubricant.shear import Carreau, Eyring, Limiting, Newtonian, ShearLaw
+from tehl.lubricant.shear import Carreau, Eyring, Limiting, Newtonian, ShearLaw, ShearModel
 from tehl.lubricant.tait import TaitDensity, TaitDoolittle
 from tehl.lubricant.viscosity import Barus, ConstantViscosity, ViscosityLaw
 from tehl.lubricant.walther import Walther
@@ -14,7 +15,9 @@ __all__ = [
     "ConstantDensity",
     "ConstantViscosity",
     "DensityLaw",
+    "DensityModel",
     "DowsonHigginson",
+    "ExponentialFall",
     "Eyring",
     "Limiting",
     "Lubricant",
@@ -23,9 +26,11 @@ __all__ = [
     "Roelands",
     "RoelandsExponential",
     "ShearLaw",
+    "ShearModel",
     "TaitDensity",
     "TaitDoolittle",
     "ViscosityLaw",
+    "ViscosityModel",
     "Walther",
     "oil",
 ]

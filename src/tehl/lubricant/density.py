@@ -3,11 +3,13 @@
 import math
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Discriminator
 
 from tehl.base.units import Density, PressureCoefficient, Temperature, TemperatureCoefficient
 from tehl.lubricant.law import DensityModel, Values, limited
+from tehl.lubricant.registered import RegisteredLaws
 from tehl.lubricant.tait import TaitDensity
+from tehl.lubricant.trial import try_density
 
 LARGEST_LOSS = 0.9
 """Most of the ambient density that heat may take, far beyond where a law holds."""
@@ -78,4 +80,8 @@ class ConstantDensity(DensityModel):
         return self.rho_0 + 0.0 * (pressure + temperature)
 
 
-DensityLaw = Annotated[DowsonHigginson | TaitDensity | ConstantDensity, Field(discriminator="law")]
+DensityLaw = Annotated[
+    DowsonHigginson | TaitDensity | ConstantDensity,
+    Discriminator("law"),
+    RegisteredLaws(DensityModel, try_density),
+]

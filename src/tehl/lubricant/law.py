@@ -11,6 +11,8 @@ from tehl.base.typing import Array, np
 
 LARGEST_LAW_EXPONENT = 600.0
 """``exp`` of more would overflow; so thick a film is a solid for every purpose."""
+SLOPE_PRESSURE, SLOPE_KELVIN = 1e4, 1e-2
+"""Steps of the differences [Pa], [K] of laws without coefficients of their own."""
 
 Values = TypeVar("Values", float, Array)
 
@@ -22,10 +24,11 @@ class Law(Table):
 class ViscosityModel(Law):
     """Base of the viscosity laws.
 
-    ``FALL`` is the constant or the standard that states the fall with temperature.
+    ``FALL`` is the constant or the standard that states the fall with temperature. A law needs the
+    method ``viscosity`` only: without formulas of their own its coefficients are differences.
     """
 
-    FALL: ClassVar[str]
+    FALL: ClassVar[str] = "with temperature"
     if TYPE_CHECKING:  # a field of most laws
         law: str
 
@@ -60,11 +63,17 @@ class ViscosityModel(Law):
 
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return ``d ln eta / dp`` [1/Pa] at ambient pressure and ``temperature`` [K]."""
-        raise NotImplementedError
+        d = SLOPE_PRESSURE
+        first, second, third = (
+            math.log(self.viscosity(pressure, temperature)) for pressure in (0.0, d, 2.0 * d)
+        )
+        return (4.0 * second - 3.0 * first - third) / (2.0 * d)
 
     def temperature_coefficient_at(self, temperature: float) -> float:
         """Return ``-d ln eta / dT`` [1/K] at ambient pressure and ``temperature`` [K]."""
-        raise NotImplementedError
+        d = SLOPE_KELVIN
+        colder, warmer = (math.log(self.viscosity(0.0, temperature + step)) for step in (-d, d))
+        return (colder - warmer) / (2.0 * d)
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].

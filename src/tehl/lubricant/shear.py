@@ -10,11 +10,13 @@ is computed from ``ln F`` at a stress, and no rate is solved for.
 import math
 from typing import Annotated, ClassVar, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, model_validator
 
 from tehl.base.typing import Array, np
 from tehl.base.units import NonNegativeStress, Stress, StressSlope
 from tehl.lubricant.law import Law, Values, functions, limited
+from tehl.lubricant.registered import RegisteredLaws
+from tehl.lubricant.trial import try_shear
 
 LEAST_EYRING = 1e4
 """Eyring stress [Pa] below which a unit has been forgotten."""
@@ -262,4 +264,8 @@ class Limiting(ShearModel):
         return np.where(rate < _KNEE_RATE, -np.expm1(-rate), beyond / _KNEE_SLOPE)[()]
 
 
-ShearLaw = Annotated[Newtonian | Eyring | Carreau | Limiting, Field(discriminator="law")]
+ShearLaw = Annotated[
+    Newtonian | Eyring | Carreau | Limiting,
+    Discriminator("law"),
+    RegisteredLaws(ShearModel, try_shear),
+]

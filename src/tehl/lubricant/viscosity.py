@@ -2,13 +2,15 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, model_validator
 
 from tehl.base.units import Temperature, TemperatureCoefficient, Viscosity
 from tehl.lubricant.law import ExponentialFall, Values, ViscosityModel
 from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
+from tehl.lubricant.registered import RegisteredLaws
 from tehl.lubricant.roelands import Roelands, RoelandsExponential
 from tehl.lubricant.tait import TaitDoolittle
+from tehl.lubricant.trial import try_viscosity
 from tehl.lubricant.walther import Walther
 
 
@@ -78,5 +80,6 @@ class ConstantViscosity(ViscosityModel):
 
 ViscosityLaw = Annotated[
     Roelands | RoelandsExponential | Barus | Walther | TaitDoolittle | ConstantViscosity,
-    Field(discriminator="law"),
+    Discriminator("law"),
+    RegisteredLaws(ViscosityModel, try_viscosity),
 ]

@@ -183,7 +183,8 @@ def _ranges_of_oil(problem: ContactProblem) -> Iterator[Typical]:
         index, hint = viscosity.pressure_index, "most oils have 0.4 to 0.8, check alpha and eta_0"
         yield Typical("Roelands z", index, 0.2, 1, "", hint)
     hint = "in mPa s? Most oils have 0.005 to 1"
-    yield Typical("viscosity eta_0", viscosity.eta_0, 1e-3, 10, "Pa s", hint)
+    at_reference = viscosity.ambient(viscosity.reference_temperature)
+    yield Typical("viscosity eta_0", at_reference, 1e-3, 10, "Pa s", hint)
     yield Typical("density rho_0", density, 600, 2000, "kg/m^3", _UNIT)
     hint = "a bare number is in kelvin"
     yield Typical("temperature of the oil at the inlet", inlet, 240, 480, "K", hint)
