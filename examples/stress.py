@@ -5,11 +5,13 @@ a wave of 0.1 mm along the rolling direction, which the contact flattens to an e
 then oscillates by 0.3 GPa. The table `[stress]` asks for what this does to the steel.
 
 **The largest shear stress** lies half a half-width deep below the smooth contact, where Hertz has
-it. The wave doubles the stress at a fifth of this depth and leaves the rest alone: harmonics of the
-pressure fall by exp(-2 pi z / wavelength).
+it. Below the wave it is largest close to the surface, 1.45 times as large as below the smooth disc
+at a depth of 0.04 half-widths. From 0.4 half-widths on the difference is below 4 %: a wave of the
+pressure falls as (1 + zeta z) exp(-zeta z) with zeta = 2 pi / wavelength.
 
 **The life** is a ratio to the dry smooth contact under the same load, never in hours. It counts
-the amplitude of the orthogonal shear stress to the power of c = 31/3, so that peaks decide.
+the amplitude of the orthogonal shear stress to the power of c = 31/3 near the surface most, so that
+peaks of pressure decide, and errors of them: the bar of the life on the wavy disc is 53 %.
 
 **Residual stress** does not change that amplitude. By the criterion of Dang Van, which counts the
 hydrostatic tension too, 300 MPa of compression near the surface help the rough contact.

@@ -90,6 +90,14 @@ def names(folder) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
 
+def test_the_option_for_stress_states_its_table_and_keeps_one_that_is_stated(folder, run, solver):
+    assert run("solve", "ball.toml").code == 0
+    assert run("solve", "ball.toml", "--stress").code == 0
+    assert run("solve", "ball.toml", "--stress", "--set", "stress.body=2").code == 0
+    tables = [call.problem.stress for call in solver.calls]
+    assert [table and table.body for table in tables] == [None, "both", 2]
+
+
 def test_the_result_is_stored_under_the_name_of_the_case(folder, solver, run):
     done = run("solve", "ball.toml")
     assert done.code == 0

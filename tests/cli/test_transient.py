@@ -338,7 +338,10 @@ def test_a_stored_run_is_animated(folder, run):
     assert (folder / "run.gif").read_bytes()[:6] == b"GIF89a"
     assert run("animate", "run.nc", "-o", "run.html", "--dpi", "30").code == 0
     assert "<script" in (folder / "run.html").read_text()
-    assert names(folder) == ["run.gif", "run.html", "run.nc", "wave.toml"]
+    below = run("animate", "run.nc", "-o", "below.gif", "--stress", "2", "--dpi", "30")
+    assert below.code == 0
+    assert (folder / "below.gif").read_bytes()[:6] == b"GIF89a"
+    assert names(folder) == ["below.gif", "run.gif", "run.html", "run.nc", "wave.toml"]
 
 
 def test_an_animation_without_ffmpeg_is_rejected_before_any_work(folder, run, monkeypatch):

@@ -210,7 +210,7 @@ def test_grooves_touch_at_low_speed_and_are_apart_at_high_speed():
     assert max(balances) < 1e-9
 
 
-def test_a_wave_doubles_the_stress_near_the_surface_only():
+def test_a_wave_raises_the_stress_near_the_surface():
     numbers = example("stress").main()
     assert numbers["smooth: largest shear stress over p_h"] == pytest.approx(0.319, abs=0.002)
     assert numbers["smooth: its depth over a"] == pytest.approx(0.463, abs=0.01)

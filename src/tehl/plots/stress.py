@@ -67,7 +67,7 @@ def stress_section(result: Solution, *, title: bool | None = True) -> Figure:
     row = int(np.argmax(found.body == body.body))
     stress = np.array([getattr(found, name)[row] for name in ("xx", "yy", "zz", "xy", "yz", "zx")])
     _draw_section(section, result, found, largest_shear(stress))
-    if abs(body.shear_y) <= result.y[1] - result.y[0]:
+    if abs(body.shear_y) <= np.diff(result.y[:2]).sum():  # of a line contact 0 <= 0
         section.plot(body.shear_x * MICRO, body.shear_depth * MICRO, "w+", ms=9, mew=1.6)
     _draw_profiles(profile, result, found, row, body)
     return picture

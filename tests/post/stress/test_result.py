@@ -227,3 +227,15 @@ def test_a_passing_dent_is_followed_in_time():
         moving_stress(run, 3)
     with pytest.raises(InputError, match=r"transient\.frames"):
         moving_stress(make_transient(frames=False))
+
+
+def test_a_solve_computes_what_the_case_asks_for():
+    """Film and pressure have the bits of a case without the table."""
+    options = tehl.Options(points=65)
+    plain = tehl.solve(tehl.ContactProblem(**CASE), options)
+    asked = tehl.solve(tehl.ContactProblem(**CASE, stress={"body": 1, "depths": 8}), options)
+    assert plain.stress is None
+    np.testing.assert_array_equal(asked.pressure, plain.pressure)
+    again = plain.with_stress(body=1, depths=8)
+    np.testing.assert_array_equal(asked.stress.zz, again.stress.zz)
+    assert 0.9 < asked.stress_numbers.worse.shear_ratio < 1.2
