@@ -286,3 +286,20 @@ def test_a_law_of_ones_own_is_refused_as_its_file_would_hold_another_oil():
     tables["lubricant"] |= {"viscosity": Thinner(eta_0=0.04, alpha=2.2e-8)}
     with pytest.raises(ValueError, match=r"lubricant.viscosity = Thinner: own classes are not"):
         ContactProblem.model_validate(tables)
+
+
+def test_a_line_contact_has_one_radius_of_the_bodies_or_reduced():
+    tables = ball_tables(
+        contact={"type": "line", "load_per_length": "100 N/mm", "entrainment_speed": 1.0},
+        surface_1={"material": "steel", "radius": 0.01},
+        surface_2={"material": "steel", "radius": -0.02},
+    )
+    problem = ContactProblem.model_validate(tables)
+    assert (problem.radius_x, problem.radius_y) == (pytest.approx(0.02), math.inf)
+    assert problem.load == 1e5
+    reduced = {"type": "line", "hertz_pressure": "1 GPa", "entrainment_speed": 1.0}
+    by_pressure = ContactProblem.model_validate(ball_tables(contact=reduced | {"radius": 0.02}))
+    assert by_pressure.hertz.pressure == pytest.approx(1e9, rel=1e-12)
+    for radii in ({"radius_x": 0.02, "radius_y": 1.0}, {}):
+        with pytest.raises(ValidationError, match="radius"):
+            ContactProblem.model_validate(ball_tables(contact=reduced | radii))

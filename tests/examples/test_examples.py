@@ -219,6 +219,15 @@ def test_a_wave_raises_the_stress_near_the_surface():
     assert numbers["wave: with residual stress [MPa]"] < numbers["wave: stress of Dang Van [MPa]"]
 
 
+def test_the_rolling_friction_of_lines_hardly_depends_on_the_load():
+    table = example("line_rolling").main()
+    for speed in (2.5, 10.0):
+        numbers = [table[load, speed] for load in (5.0, 15.0, 50.0)]
+        assert max(numbers) / min(numbers) < 1.12
+    assert table[15.0, 10.0] == pytest.approx(1.61, rel=0.02)
+    assert table[15.0, 2.5] > 1.1 * table[15.0, 10.0]
+
+
 def test_a_bearing_list_has_its_films():
     table = example("bearing_list").main()
     assert list(table["status"]) == ["converged", "converged"]

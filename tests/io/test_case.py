@@ -46,9 +46,13 @@ MISTAKES = [
     ("numeric.points=129", "numeric is not a known key", "did you mean numerics?"),
     ("numerics.tol=3", "numerics.tol is not a known key", "known are error"),
     ("lubricant.viscosity.alfa=3", "lubricant.viscosity.alfa is not a known key", "alpha"),
-    ("contact.width=10 mm", "contact.width is not a known key", "line contacts are not computed"),
-    ("contact.line_load=1e5", "contact.line_load", "line contacts are not computed yet"),
-    ("contact.type=line", "contact.type", "line contacts are not computed yet"),
+    ("contact.width=10 mm", "contact.width is not a known key", 'type = "line"'),
+    ("contact.line_load=1e5", "contact.line_load", "did you mean load_per_length?"),
+    ("contact.type=line", "states load", "a line contact takes load_per_length"),
+    ("contact.type=cone", "contact.type", "known are point, line"),
+    ("contact.load_per_length=100 N", "has the unit of a force", '"200 N/mm"'),
+    ("contact.load_per_length=1 N/mm", "states load_per_length", "a point contact takes load"),
+    ("numerics.points=[257, 1]", "one row of nodes", 'contact.type = "line"'),
     ("contact.speed=1 m/s", "contact.speed is not a known key", "did you mean entrainment_speed"),
     ("surface_1.ra=0.1 um", "surface_1.ra is not a known key", "did you mean ra_roughness?"),
     ("surface_2.rq=0.1 um", "surface_2.rq is not a known key", "did you mean rms_roughness?"),
@@ -332,7 +336,7 @@ def test_bodies_that_are_both_flat_along_y_make_a_line_contact(tmp_path):
         'radius = "20 mm"', 'radius_x = "20 mm"\nradius_y = "inf"'
     )
     (tmp_path / "line.toml").write_text(text)
-    with pytest.raises(InputError, match="line contacts are not computed yet"):
+    with pytest.raises(InputError, match=r"a line contact has contact\.type"):
         read_case(tmp_path / "line.toml")
 
 

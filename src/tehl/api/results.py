@@ -17,6 +17,7 @@ from tehl.contact.stress import Stress
 from tehl.post import transient_numbers
 from tehl.post.boundary_contact import Touching, touching
 from tehl.post.heat import Temperature, temperature
+from tehl.post.rolling import Rolling, rolling_friction
 from tehl.post.roughness import RoughFilm, rough_film
 from tehl.post.starvation import Starvation, starvation
 from tehl.post.stress.below import stress_below
@@ -103,6 +104,11 @@ class Result(Saved, Solution):
     def touching(self) -> Touching | None:
         """Load and friction of film and contact, None without a boundary film."""
         return touching(self)
+
+    @property
+    def rolling(self) -> Rolling | None:
+        """Rolling friction of one metre of a line contact, None for other shapes."""
+        return rolling_friction(self)
 
     def with_stress(self, **settings: Any) -> Self:
         """Return the result with the stress below its surfaces; nothing is solved.

@@ -306,6 +306,7 @@ BulkModulus = Annotated[float, Quantity("a bulk modulus", "Pa", '"1.2 GPa"')]
 Stress = Annotated[float, Quantity("a shear stress", "Pa", '"5 MPa"')]
 NonNegativeStress = Annotated[float, Quantity("a shear stress", "Pa", '"5 MPa"', "non-negative")]
 Force = Annotated[float, Quantity("a force", "N", '"80 N"')]
+ForcePerLength = Annotated[float, Quantity("a force per length", "N/m", '"200 N/mm"')]
 Speed = Annotated[float, Quantity("a speed", "m/s", '"1.5 m/s"')]
 Viscosity = Annotated[float, Quantity("a viscosity", "Pa s", '"0.04 Pa s"')]
 KinematicViscosity = Annotated[
@@ -351,7 +352,16 @@ def quantity(kind: Any) -> Quantity:
 _KINDS = {
     quantity(kind).dimension: quantity(kind).name
     for kind in (
-        *(Length, Pressure, Force, Speed, Viscosity, KinematicViscosity, PressureCoefficient),
+        *(
+            Length,
+            Pressure,
+            Force,
+            ForcePerLength,
+            Speed,
+            Viscosity,
+            KinematicViscosity,
+            PressureCoefficient,
+        ),
         *(Temperature, TemperatureCoefficient, Density, Conductivity),
         *(HeatCapacity, VolumeHeatCapacity),
     )

@@ -5,6 +5,12 @@ import json
 import re
 
 
+def grid_size(points: tuple[int, int]) -> str:
+    """Return the nodes along x and y of a grid in words, of a line contact those along x."""
+    nx, ny = points
+    return f"{nx} nodes" if ny == 1 else f"{nx} x {ny} nodes"
+
+
 def suggestion_for(word: str, known: list[str]) -> str:
     """Return the question after the word that is most alike, or all known ones.
 

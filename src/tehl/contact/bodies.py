@@ -26,11 +26,11 @@ def reduced_radius(first: float, second: float) -> float:
     Raises
     ------
     ValueError
-        If the surfaces do not curve apart, so that they have no point contact.
+        If the surfaces do not curve apart, so that they have no contact.
     """
     curvature = 1.0 / first + 1.0 / second
     if curvature == 0.0 and math.isinf(first):
-        raise ValueError("flat on flat is not a point contact: one radius must be finite")
+        raise ValueError("flat on flat is not a contact: one radius must be finite")
     if not curvature > 0.0:
         raise ValueError(
             f"radii {first:g} m and {second:g} m do not curve apart: 1/R1 + 1/R2 must be positive"

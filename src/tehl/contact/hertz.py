@@ -18,7 +18,7 @@ from functools import lru_cache
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class HertzContact:
-    """Dry contact of an ellipse with axes along and across entrainment."""
+    """Dry contact with axes along and across entrainment."""
 
     half_width_x: float
     half_width_y: float
@@ -26,14 +26,14 @@ class HertzContact:
     pressure: float
     """Largest pressure p_h [Pa]."""
     approach: float
-    """Approach of the bodies [m]."""
+    """Approach of the bodies [m]; not a number for a line."""
     ellipticity: float
-    """kappa = a_y / a_x [-]."""
+    """kappa = a_y / a_x [-]; infinite for a line."""
 
     @property
     def mean_pressure(self) -> float:
-        """Return two thirds of the largest pressure [Pa]."""
-        return self.pressure * 2.0 / 3.0
+        """Return two thirds of the largest pressure, pi/4 of that of a line [Pa]."""
+        return self.pressure * (math.pi / 4.0 if math.isinf(self.ellipticity) else 2.0 / 3.0)
 
 
 def elliptic_b_d(parameter: float) -> tuple[float, float]:

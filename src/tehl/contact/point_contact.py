@@ -1,13 +1,14 @@
 """A contact: two surfaces, a lubricant, a load and a motion, and what follows from them in SI."""
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import AfterValidator, model_validator
 
 from tehl.base.table import Table
 from tehl.base.units import (
     Force,
+    ForcePerLength,
     Height,
     Length,
     Number,
@@ -18,14 +19,14 @@ from tehl.base.units import (
     Temperature,
     ThermalResistance,
 )
-from tehl.contact.bodies import Motion, Radii, reduced_radii
+from tehl.contact.bodies import Motion, Radii, reduced_radii, reduced_radius
 from tehl.contact.boundary_contact import ContactFilm
 from tehl.contact.cooling import Cooling
 from tehl.contact.dynamics import Dynamics
 from tehl.contact.heat import FilmEnergy, Thermal
 from tehl.contact.hertz import HertzContact, ellipticity
 from tehl.contact.materials import NamedSolid, reduced_modulus
-from tehl.contact.shape import Ellipse, Shape
+from tehl.contact.shape import LINE, Ellipse, Shape
 from tehl.contact.stress import Stress
 from tehl.contact.summits import Asperities
 from tehl.contact.supply import Cavitation, Supply
@@ -33,8 +34,6 @@ from tehl.contact.transient import Transient
 from tehl.lubricant import NamedLubricant
 from tehl.roughness import AnyRoughness, Smooth
 from tehl.roughness.model import with_rms
-
-LINE = "line contacts are not computed yet; state an ellipse by radius_x and radius_y"
 
 
 class _WithRadii(Table):
@@ -141,13 +140,18 @@ class Contact(_WithRadii):
     """Shape, load and motion of the contact."""
 
     other_words: ClassVar = {
-        **dict.fromkeys(("type", "width", "length", "line_load", "load_per_length"), LINE),
+        **dict.fromkeys(
+            ("width", "length"),
+            'a contact without ends has type = "line" and load_per_length; one of finite length is '
+            "an ellipse by radius_x and radius_y",
+        ),
         "speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
         "sliding_speed": "did you mean slide_roll_ratio, (u_1 - u_2) over the mean speed?",
         "diameter": "did you mean radius, half of it?",
     }
     synonyms: ClassVar = {
         "load": "force normal_load normal_force weight w f",
+        "load_per_length": "line_load unit_load specific_load w_l",
         "hertz_pressure": "pressure max_pressure maximum_pressure hertz_stress p_h",
         "entrainment_speed": "velocity mean_speed rolling_speed rolling_velocity u_m u",
         "slide_roll_ratio": "srr slip slide_ratio sliding_ratio slide_to_roll",
@@ -157,16 +161,20 @@ class Contact(_WithRadii):
         "lubricant.temperature": "temperature oil_temperature",
     }
 
+    type: Literal["point", "line"] = "point"
+    """A circle or an ellipse, or a line without ends: then nothing changes across the entrainment,
+    and forces and powers are those of one metre."""
     radius: Length | None = None
-    """Reduced radius of a circular contact [m]."""
+    """Reduced radius of a circular or of a line contact [m]."""
     radius_x: Length | None = None
     radius_y: Length | None = None
     """Reduced radii along and across entrainment [m]. Without any radius here both surfaces state
     theirs."""
     load: Force | None = None
+    load_per_length: ForcePerLength | None = None
     hertz_pressure: Pressure | None = None
     moes_load: PositiveNumber | None = None
-    """Exactly one: w [N], p_h [Pa] or M [-]."""
+    """Exactly one: w [N], in a line contact w [N/m], p_h [Pa] or M [-]."""
     entrainment_speed: Speed | None = None
     moes_speed: PositiveNumber | None = None
     """Exactly one: u_m [m/s] or L [-]."""
@@ -175,9 +183,19 @@ class Contact(_WithRadii):
 
     @model_validator(mode="after")
     def _must_be_stated_once(self) -> Self:
-        self._exactly_one("load", "hertz_pressure", "moes_load")
+        own, other = ("load_per_length", "load") if self.is_line else ("load", "load_per_length")
+        if getattr(self, other) is not None:
+            raise ValueError(f"states {other}: a {self.type} contact takes {own}")
+        if self.is_line and self.radius_x is not None:
+            raise ValueError("states radius_x and radius_y: a line contact takes radius")
+        self._exactly_one(own, "hertz_pressure", "moes_load")
         self._exactly_one("entrainment_speed", "moes_speed")
         return self
+
+    @property
+    def is_line(self) -> bool:
+        """Whether it is a line contact."""
+        return self.type == "line"
 
     def _exactly_one(self, *names: str) -> None:
         stated = [name for name in names if getattr(self, name) is not None]
@@ -197,7 +215,7 @@ Title = Annotated[str, AfterValidator(_printable)]
 
 
 class PointContact(Table):
-    """A lubricated point contact as its tables state it; `ContactProblem` checks that they agree.
+    """A lubricated contact as its tables state it; `ContactProblem` checks that they agree.
 
     Derived quantities in SI are properties.
     """
@@ -230,12 +248,15 @@ class PointContact(Table):
 
     @property
     def radii(self) -> Radii:
-        """Return the reduced radii."""
+        """Return the reduced radii; across the entrainment that of a line contact is infinite."""
         first, second = self.surface_1.radii, self.surface_2.radii
         if self.contact.radii is not None:
-            return self.contact.radii
+            x, y = self.contact.radii.x, self.contact.radii.y
+            return Radii(x=x, y=math.inf if self.contact.is_line else y)
         if first is None or second is None:
             raise ValueError("no radii")
+        if self.contact.is_line:
+            return Radii(x=reduced_radius(first.x, second.x), y=math.inf)
         return reduced_radii(first, second)
 
     @property
@@ -251,6 +272,8 @@ class PointContact(Table):
     @property
     def shape(self) -> Shape:
         """Return the shape of the contact."""
+        if self.contact.is_line:
+            return LINE
         radii = self.radii
         ratio = ellipticity(radii.x, radii.y)
         return Ellipse(ellipticity=ratio, radius_ratio=radii.x / radii.y)
@@ -373,9 +396,13 @@ class PointContact(Table):
 
     @property
     def load(self) -> float:
-        """Return the normal load w [N], stated or from the Hertz pressure or the Moes M."""
-        if self.contact.load is not None:
-            return self.contact.load
+        """Return the normal load w [N], stated or from the Hertz pressure or the Moes M.
+
+        That of a line contact is the load of one metre.
+        """
+        stated = self.contact.load_per_length if self.contact.is_line else self.contact.load
+        if stated is not None:
+            return stated
         if self.contact.hertz_pressure is not None:
             pressure = self.contact.hertz_pressure
             return self.shape.load_of_pressure(pressure, self.radii, self.reduced_modulus)
@@ -432,6 +459,8 @@ class PointContact(Table):
     @property
     def is_even_in_y(self) -> bool:
         """Whether the problem is symmetric in y, so that half of the domain suffices."""
+        if self.contact.is_line:
+            return True
         supply = self.supply is None or self.supply.is_even_in_y
         surfaces = self.surface_1.roughness, self.surface_2.roughness
         return supply and all(roughness.is_even_in_y for roughness in surfaces)

@@ -46,7 +46,7 @@ LARGEST_RATIO = 1e3
 
 @part_of_case("", "contact", "lubricant", "thermal", "transient")
 class ContactProblem(PointContact):
-    """A lubricated point contact.
+    """A lubricated contact: a circle, an ellipse or a line.
 
     Its fields are the tables of the case file, so that reading a case is validating the parsed
     file.
@@ -65,6 +65,7 @@ def check(problem: PointContact) -> None:
     """
     _check_classes(problem, "")
     check_radii(problem)
+    check_line(problem)
     check_temperatures(problem)
     check_heat(problem)
     check_transient(problem)
@@ -78,10 +79,10 @@ def check(problem: PointContact) -> None:
             "coefficient; give contact.entrainment_speed"
         )
     ratio = problem.radius_y / problem.radius_x
-    if not 1.0 / LARGEST_RATIO <= ratio <= LARGEST_RATIO:
+    if not problem.contact.is_line and not 1.0 / LARGEST_RATIO <= ratio <= LARGEST_RATIO:
         raise ValueError(
             f"radius_y / radius_x = {ratio:.3g} is a line contact, not a point contact: it must "
-            f"be between {1.0 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}"
+            f'be between {1.0 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}, or contact.type "line"'
         )
     check_size(problem)
     check_bodies(problem)
@@ -110,7 +111,9 @@ def check_size(problem: PointContact) -> None:
     try:
         sizes = [problem.radius_x, problem.load, problem.entrainment_speed, problem.hertz.pressure]
         twice_speed = 2.0 * problem.speed_group
-        unit = problem.reduced_modulus * problem.radius_x**2 * twice_speed**0.75
+        shape = problem.shape
+        unit = shape.load_unit(problem.radius_x, problem.reduced_modulus)
+        unit *= twice_speed**shape.speed_power
         load_number, speed_number = problem.load / unit, problem.material_group * twice_speed**0.25
     except ArithmeticError:
         sizes, load_number, speed_number = [], math.nan, math.nan
@@ -276,6 +279,25 @@ def check_contact_film(problem: PointContact) -> None:
         )
 
 
+def check_line(problem: PointContact) -> None:
+    """Check that a line contact is one of those that are computed."""
+    excluded = {
+        "thermal": problem.thermal is not None,
+        "lubricant.shear": not problem.lubricant.shear.is_newtonian,
+        "roughness": problem.is_rough,
+        "supply": problem.supply is not None,
+        "contact_film": problem.contact_film is not None,
+        "dynamics": problem.dynamics is not None,
+    }
+    for name, is_stated in excluded.items():
+        if problem.contact.is_line and is_stated:
+            raise ValueError(
+                f'contact.type = "line" and {name} exclude each other: line contacts are computed '
+                "with isothermal, Newtonian, flooded films of surfaces that are smooth on the "
+                f"mesh; leave out {name}, or take an ellipse with a large radius_y"
+            )
+
+
 def check_dynamics(problem: PointContact) -> None:
     """Check that the film has one steady state, which oil alone carries."""
     excluded = {
@@ -304,7 +326,7 @@ def check_radii(problem: PointContact) -> None:
     for key, radii in zip(SURFACES, on_surfaces, strict=True):
         if radii is None:
             raise ValueError(f'{key}.radius is missing: give it ("inf" is flat)')
-    for axis in ("x", "y"):
+    for axis in ("x",) if problem.contact.is_line else ("x", "y"):
         try:
             reduced_radius(*(getattr(radii, axis) for radii in on_surfaces))
         except ValueError as error:
@@ -312,5 +334,5 @@ def check_radii(problem: PointContact) -> None:
             pairs = zip(SURFACES, once, strict=True)
             keys = " and ".join(f"{key}.radius" + ("" if one else f"_{axis}") for key, one in pairs)
             is_line = axis == "y" and all(math.isinf(radii.y) for radii in on_surfaces)
-            why = "line contacts are not computed yet: " if is_line else ""
-            raise ValueError(f"{keys}: {why}{error}") from None
+            why = ' (a line contact has contact.type = "line")' if is_line else ""
+            raise ValueError(f"{keys}: {error}{why}") from None

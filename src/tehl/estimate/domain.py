@@ -3,10 +3,19 @@
 import math
 from dataclasses import replace
 
-from tehl.contact.options import USUAL_PLAIN_ERROR, Domain, Options
+from tehl.base.errors import InputError
+from tehl.contact.options import LINE_WIDTH, USUAL_PLAIN_ERROR, Domain, Options
 from tehl.contact.problem import ContactProblem
+from tehl.contact.shape import LINE
 from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film, moes_film_unit
+from tehl.estimate.line import (
+    LINE_ERROR,
+    line_domain,
+    line_edge_error,
+    line_field_error,
+    line_points,
+)
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.starvation import is_starved, starved_domain, supplied_film
 from tehl.estimate.summits import shared_load
@@ -64,7 +73,8 @@ def gap_widths(groups: Groups) -> tuple[float, float]:
     In half-widths a_x and a_y: the pressure of a thick film extends over a few of them.
     """
     along = math.sqrt(2.0 * expected_central_film(groups))
-    return along, along / math.sqrt(groups.shape.across)
+    across = groups.shape.across
+    return along, along / math.sqrt(across) if across else 0.0
 
 
 def recommended_domain(groups: Groups, error: float = USUAL_PLAIN_ERROR) -> Domain:
@@ -82,6 +92,8 @@ def recommended_domain(groups: Groups, error: float = USUAL_PLAIN_ERROR) -> Doma
         Relative error of the film that is acceptable [-].
     """
     along, across = gap_widths(groups)
+    if groups.shape is LINE:
+        return line_domain(along, error)
     larger = max(USUAL_PLAIN_ERROR / error, 1.0) ** (1.0 / 3.0)
     wide = max(groups.ellipticity, 1.0) ** WIDE_INLET
     inlet = larger * max(INLET[0] * wide, INLET[1] * along)
@@ -104,6 +116,8 @@ def far_field_error(groups: Groups, domain: Domain) -> float:
         Edges in Hertz half-widths.
     """
     along, across = gap_widths(groups)
+    if groups.shape is LINE:
+        return line_field_error(along, domain)
     inlet, side = -domain.x[0], min(-domain.y[0], domain.y[1])
     thick = 0.1 * ((along / inlet) ** 3 + (across / side) ** 3)
     wide = max(groups.ellipticity, 1.0) ** WIDE_INLET
@@ -127,6 +141,8 @@ def domain_error(groups: Groups, domain: Domain) -> float:
     domain : Domain
         Edges in Hertz half-widths.
     """
+    if groups.shape is LINE:
+        return line_edge_error(gap_widths(groups)[0], domain)
     stretch = math.sqrt(groups.shape.across)
     side = stretch * min(-domain.y[0], domain.y[1])
     inlet = -domain.x[0]
@@ -217,6 +233,8 @@ def expected_points(  # noqa: PLR0913 (one formula)
     extrapolate, order : bool, {1, 2, 3}
         Whether the two finest grids are combined, and the order of the wedge.
     """
+    if groups.shape is LINE:
+        return line_points(groups, domain, error, least)
     left = max(error - far_field_error(groups, domain), 0.5 * error) / EXPECTED_BAR_MARGIN
     if order > 2:
         bars = ((nodes, _third_order_bar(groups, domain, nodes)) for nodes in FAVOURED)
@@ -252,11 +270,46 @@ def settled(problem: ContactProblem, options: Options) -> Options:
     options : Options
         Returned as they are if they state ``extrapolate``.
     """
+    if problem.contact.is_line:
+        return _of_one_row(problem, options)
+    if options.domain != "auto" and options.domain.y == LINE_WIDTH:
+        raise InputError("numerics.domain.y is missing: give the side edges, such as [-3.0, 3.0]")
+    if isinstance(options.points, tuple) and options.points[1] == 1:
+        raise InputError('numerics.points: one row of nodes is for contact.type = "line" alone')
     if options.extrapolate is not None:
         return options
-    smooth = not (problem.is_rough or problem.contact_film is not None)
-    found = options.points == "auto" and smooth and problem.transient is None
+    found = options.points == "auto" and _is_smooth(problem)
     return options.model_copy(update={"extrapolate": found})
+
+
+def _of_one_row(problem: ContactProblem, options: Options) -> Options:
+    """Return the options of a line contact, whose nodes lie on one row.
+
+    They are cheap, so no film is extrapolated; the wedge is of third order where that of an
+    extrapolated film would be.
+    """
+    points, domain = options.points, options.domain
+    if isinstance(points, tuple) and points[1] != 1:
+        raise InputError(
+            f"numerics.points = {list(points)}: a line contact has nodes along x alone; take "
+            f"{points[0]}"
+        )
+    changes: dict[str, object] = {"extrapolate": bool(options.extrapolate)}
+    if options.wedge_order is None and options.extrapolate is None and _is_smooth(problem):
+        changes["wedge_order"] = 3
+    if options.error is None and points == "auto" and _is_smooth(problem):
+        changes["error"] = LINE_ERROR
+    if isinstance(points, int):
+        changes["points"] = (points, 1)
+    if domain != "auto" and domain.y != LINE_WIDTH:
+        changes["domain"] = domain.model_copy(update={"y": LINE_WIDTH})
+    return options.model_copy(update=changes)
+
+
+def _is_smooth(problem: ContactProblem) -> bool:
+    """Whether a steady film is smooth on the mesh."""
+    rough = problem.is_rough or problem.contact_film is not None
+    return not rough and problem.transient is None
 
 
 def planned(scaled: ScaledProblem, options: Options) -> Options:
@@ -285,6 +338,8 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
         extrapolate=bool(options.extrapolate),
         order=options.order,
     )
+    if scaled.problem.contact.is_line:
+        return options.on_points(nodes, 1)
     is_slender = scaled.groups.ellipticity >= SLENDER_RATIO_OF_NODES and options.order > 2
     return options.on_points(nodes, (nodes - 1) // 2 + 1 if is_slender else nodes)
 
@@ -355,7 +410,7 @@ def _around_asperities(scaled: ScaledProblem, domain: Domain) -> Domain:
     """Return a domain on whose edges the asperities are `SEPARATION_WITHOUT_CONTACT`."""
     groups, sigma = scaled.groups, scaled.problem.asperity_rms / scaled.scales.film_thickness
     along = math.sqrt(1.0 + 2.0 * EDGE_GAP_MARGIN * SEPARATION_WITHOUT_CONTACT * sigma)
-    across = along / math.sqrt(groups.shape.across)
+    across = along / math.sqrt(groups.shape.across) if groups.shape.across else 0.0
     inlet = max(-domain.x[0], along)
     outlet, side = max(domain.x[1], OUTLET * inlet, along), max(domain.y[1], across)
     x, side = math.ceil(10.0 * max(inlet, outlet / OUTLET)) / 10.0, math.ceil(10.0 * side) / 10.0

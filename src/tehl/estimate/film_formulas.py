@@ -15,15 +15,13 @@ References
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, get_args
 
+from tehl.contact.shape import LINE
+from tehl.estimate.formula import Asymptotes, FilmRatio, Formula, Regime
+from tehl.estimate.line_formulas import LINE_FORMULAS, line_asymptotes, moes_line
 from tehl.estimate.scaling import Groups, ScaledProblem, Scales
-
-Regime = Literal[
-    "rigid-isoviscous", "elastic-isoviscous", "rigid-piezoviscous", "elastic-piezoviscous"
-]
 
 Lubrication = Literal["boundary", "mixed", "full film"]
 FULL_FILM, BOUNDARY = 3.0, 1.0
@@ -40,31 +38,6 @@ Compared with solves at L = 10 (mineral oil, steel) they are within 0 to 5 % at 
 M = 50 to 150, 13 % too thick at 0.4 and M = 300, up to 6 % too thin for an incompressible Barus
 liquid at 0.5 and M = 50, and 50 % too thick at R_x/R_y = 2 and M = 150.
 """
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class FilmRatio:
-    """Film over R_x by a formula; ``minimum`` is None if the formula has none."""
-
-    central: float
-    minimum: float | None
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Formula:
-    """A film formula and its range of validity."""
-
-    name: str
-    """Its authors."""
-    source: str
-    film: Callable[[Groups], FilmRatio]
-    """From groups to :class:`FilmRatio`."""
-    limits: tuple[str, float, float]
-    """Field of :class:`tehl.estimate.scaling.Groups`, its least and its largest value."""
-    regimes: tuple[Regime, ...] = ("elastic-piezoviscous",)
-    """Regimes for which it was derived."""
-    minimum_limit: float = math.inf
-    """Moes load above which its minimum film is known to be too thick, except in wide contacts."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -89,17 +62,6 @@ class FilmEstimate:
     def valid(self) -> bool:
         """Whether the contact is within the range of the formula."""
         return not self.remarks
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Asymptotes:
-    """The four limits of the Nijenbanning-Venner-Moes formula, in Moes form [-]."""
-
-    rigid_isoviscous: float
-    elastic_isoviscous: float
-    rigid_piezoviscous: float
-    elastic_piezoviscous: float
-    unloaded: float
 
 
 def hertz_ratio_squared(groups: Groups) -> float:
@@ -132,7 +94,12 @@ def chittenden(groups: Groups) -> FilmRatio:
 
 
 def asymptotes(groups: Groups) -> Asymptotes:
-    """Return the four limits of Nijenbanning, Venner and Moes [3]_, and the film without load."""
+    """Return the four limits of Nijenbanning, Venner and Moes [3]_, and the film without load.
+
+    Those of a line contact are Moes', and have no such film.
+    """
+    if groups.shape is LINE:
+        return line_asymptotes(groups)
     load, speed, d = groups.M, groups.L, groups.radius_ratio
     shape = 1.0 + 0.006 * math.log(d) + 0.63 * d ** (4 / 7)
     return Asymptotes(
@@ -174,12 +141,16 @@ def _piezoviscous(limits: Asymptotes) -> float:
 
 
 def expected_central_film(groups: Groups) -> float:
-    """Return the central film H by the formula of Nijenbanning, Venner and Moes [3]_ [-]."""
-    return nijenbanning_venner_moes(groups).central / hertz_ratio_squared(groups)
+    """Return the central film H by the formula that covers all regimes [-].
+
+    That of Nijenbanning, Venner and Moes [3]_, of a line contact that of Moes.
+    """
+    formula = moes_line if groups.shape is LINE else nijenbanning_venner_moes
+    return formula(groups).central / hertz_ratio_squared(groups)
 
 
 def expected_film(scaled: ScaledProblem) -> float:
-    """Return the central film to expect, from Nijenbanning, Venner and Moes [m]."""
+    """Return the central film to expect, by `expected_central_film` [m]."""
     return expected_central_film(scaled.groups) * scaled.scales.film_thickness
 
 
@@ -255,7 +226,7 @@ def film_estimates(groups: Groups, scales: Scales) -> tuple[FilmEstimate, ...]:
         Its film scale a_x^2/R_x [m] converts H to metres.
     """
     unit, metres, estimates = hertz_ratio_squared(groups), scales.film_thickness, []
-    for formula in FORMULAS:
+    for formula in LINE_FORMULAS if groups.shape is LINE else FORMULAS:
         film = formula.film(groups)
         central = film.central / unit
         minimum = None if film.minimum is None else film.minimum / unit

@@ -14,7 +14,7 @@ class Grid:
 
     nx: int
     ny: int
-    """Nodes per direction of the full domain."""
+    """Nodes per direction of the full domain; a line contact has one row."""
     domain: Domain
     """In Hertz half-widths."""
     mirror: bool
@@ -27,8 +27,8 @@ class Grid:
 
     @property
     def dy(self) -> float:
-        """Mesh width along y, in a_y."""
-        return (self.domain.y[1] - self.domain.y[0]) / (self.ny - 1)
+        """Mesh width along y, in a_y; that of a single row is the whole width."""
+        return (self.domain.y[1] - self.domain.y[0]) / max(self.ny - 1, 1)
 
     @property
     def points(self) -> tuple[int, int]:
@@ -48,7 +48,7 @@ class Grid:
     @property
     def y(self) -> Array:
         """Coordinates of the stored rows."""
-        start = 0.0 if self.mirror else self.domain.y[0]
+        start = 0.0 if self.mirror or self.ny == 1 else self.domain.y[0]
         return start + self.dy * np.arange(float(self.shape[0]))
 
     def unfold(self, field: Array) -> Array:
@@ -64,8 +64,11 @@ class Grid:
         return replace(self, nx=2 * self.nx - 1, ny=2 * self.ny - 1)
 
     def can_coarsen(self) -> bool:
-        """Whether both directions halve to 16 intervals or more, and the half domain still can."""
-        intervals = (self.nx - 1, self.ny - 1)
+        """Whether both directions halve to 16 intervals or more, and the half domain still can.
+
+        A line contact halves along x alone.
+        """
+        intervals = (self.nx - 1, self.ny - 1) if self.ny > 1 else (self.nx - 1,)
         even = all(n % 2 == 0 and n // 2 >= 16 for n in intervals)
         return even and not (self.mirror and (self.ny - 1) // 2 % 2)
 

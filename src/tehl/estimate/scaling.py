@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from tehl.contact.problem import ContactProblem
-from tehl.contact.shape import Ellipse, Shape
+from tehl.contact.shape import LINE, Ellipse, Shape
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -54,6 +54,8 @@ class Groups:
     @property
     def shape(self) -> Shape:
         """The shape of the contact."""
+        if self.radius_ratio == 0.0:
+            return LINE
         return Ellipse(ellipticity=self.ellipticity, radius_ratio=self.radius_ratio)
 
 

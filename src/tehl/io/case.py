@@ -20,6 +20,7 @@ from tehl.base.wording import short, shown
 from tehl.contact.materials import SOLIDS
 from tehl.contact.options import NUMERICS, Options
 from tehl.contact.problem import ContactProblem
+from tehl.estimate.domain import settled
 from tehl.lubricant.fluid import OILS
 from tehl.roughness import Map, Sum
 
@@ -80,6 +81,7 @@ def case_from_tables(
             f"numerics.error = {percentage(options.error)} and numerics.points are both stated: "
             'the error decides the number of nodes; remove one, or set numerics.points = "auto"'
         )
+    settled(problem, options)  # raises where they do not suit the shape of the contact
     return problem, options
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import STEADILY, Stencil, flux_weights
+from tehl.kernels.reynolds import STEADILY, Stencil, flux_weights, inner_end
 
 # part of a change of the pressure that asperities take by the film it moves
 NEGLIGIBLE_COARSE_PART = 1e-6
@@ -143,7 +143,7 @@ def _solve_dense(a: Array, b: Array, n: int) -> None:
 def _find_free(state: Coarse, system: CoarseSystem, mirror: int, nx: int, free: IntArray) -> int:
     """List the nodes with p > 0 or residual < 0 that are not frozen; return their count."""
     count = 0
-    for j in range(0 if mirror else 1, state.p.shape[0] // nx - 1):
+    for j in range(0 if mirror else 1, inner_end(state.p.shape[0] // nx)):
         for here in range(j * nx + 1, j * nx + nx - 1):
             wet = state.p[here] != 0.0 or system.residual[here] < 0.0
             if wet and not system.frozen[here]:
@@ -159,7 +159,7 @@ def _find_carrying(state: Coarse, system: CoarseSystem, shape: tuple[int, int], 
     Return their count. ``shape``: mirror, and nodes of a row.
     """
     count, (mirror, nx) = 0, shape
-    for j in range(0 if mirror else 1, state.p.shape[0] // nx - 1):
+    for j in range(0 if mirror else 1, inner_end(state.p.shape[0] // nx)):
         for here in range(j * nx + 1, j * nx + nx - 1):
             wet = state.p[here] != 0.0 or system.residual[here] < 0.0
             work.dry[here] = not wet or system.frozen[here] > 0
@@ -191,10 +191,11 @@ def _touch(state: Coarse, system: CoarseSystem, work: Work) -> None:
 
 
 @helper
-def _find_neighbours(here: int, nx: int, near: IntArray) -> None:
-    """Fill the numbers of a node and its neighbours."""
+def _find_neighbours(here: int, nx: int, nodes: int, near: IntArray) -> None:
+    """Fill the numbers of a node and its neighbours; one row is its own neighbour."""
     near[HERE], near[EAST], near[WEST] = here, here + 1, here - 1
-    near[NORTH], near[SOUTH] = here + nx, here - nx if here >= nx else here + nx
+    near[NORTH] = here + nx if here + nx < nodes else here
+    near[SOUTH] = here - nx if here >= nx else near[NORTH]
     near[FAR] = max(here - 2, here // nx * nx)
 
 
@@ -277,7 +278,7 @@ def _add_upstream(
     row, count, nx = place
     here = work.free[row] - 1
     while here % nx > 0 and state.partial[here]:
-        _find_neighbours(here, nx, work.near)
+        _find_neighbours(here, nx, state.p.shape[0], work.near)
         _clear_slopes(work)
         _add_face(state, stencil, work, NORTH)
         _add_face(state, stencil, work, SOUTH)
@@ -301,7 +302,7 @@ def _assemble(
         for m in range(work.full.shape[0]):
             work.full[m] = 0.0
         work.matrix[row, count] = 0.0
-        _find_neighbours(here, nx, work.near)
+        _find_neighbours(here, nx, state.p.shape[0], work.near)
         _slopes(state, stencil, work)
         if state.stiffness.shape[0] > 0:
             _touch(state, system, work)

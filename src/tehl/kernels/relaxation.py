@@ -31,7 +31,9 @@ from tehl.kernels.reynolds import (
     both_x,
     clear,
     flux_weights,
+    inner_end,
     line_operator,
+    row_above,
     row_below,
 )
 
@@ -102,13 +104,13 @@ def mark_dipoles(film: Film, stencil: Stencil, relaxation: LineRelaxation) -> No
     p, eps_x, eps_y, kind = film.p, film.eps_x, film.eps_y, relaxation.kind
     limit = relaxation.xi / max(stencil.cx, stencil.cy)
     clear(kind)
-    for j in range(0 if stencil.mirror else 1, ny - 1):
-        south = row_below(j)
+    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
+        south, north = row_below(j, ny), row_above(j, ny)
         for i in range(1, relaxation.ends[j]):
             along = max(eps_x[j, i], eps_x[j, i - 1], eps_x[j, i + 1])
-            across = max(eps_y[j, i], eps_y[south, i], eps_y[j + 1, i])
+            across = max(eps_y[j, i], eps_y[south, i], eps_y[north, i])
             smallest = min(
-                abs(p[j, i]), abs(p[j, i - 1]), abs(p[j, i + 1]), abs(p[south, i]), abs(p[j + 1, i])
+                abs(p[j, i]), abs(p[j, i - 1]), abs(p[j, i + 1]), abs(p[south, i]), abs(p[north, i])
             )
             if max(along, across) <= limit and smallest > 0.0:
                 kind[j, i] = 1
@@ -127,14 +129,14 @@ def stiffen(film: Film, stencil: Stencil, flow: FlowTable, out: Array) -> None:
     table, step = flow.mobility, flow.step
     last = table.shape[0] - 2
     clear(out)
-    for j in range(0 if stencil.mirror else 1, ny - 1):
-        south = row_below(j)
+    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
+        south, north = row_below(j, ny), row_above(j, ny)
         for i in range(1, nx - 1):
             p = film.p[j, i]
             k = int(min(p / step, last)) if p > 0.0 else 0
             decay = max(-table[k, 1] / (table[k, 0] * step), 0.0)
             along = max(film.p[j, i - 1] - p, 0.0) + max(film.p[j, i + 1] - p, 0.0)
-            across = max(film.p[south, i] - p, 0.0) + max(film.p[j + 1, i] - p, 0.0)
+            across = max(film.p[south, i] - p, 0.0) + max(film.p[north, i] - p, 0.0)
             slope = stencil.cx * film.eps_x[j, i] * along + stencil.cy * film.eps_y[j, i] * across
             out[j, i] = 0.5 * decay * slope
 
@@ -159,13 +161,14 @@ def _load_line(
     film: Film, stencil: Stencil, relaxation: LineRelaxation, place: Span, span: Span
 ) -> None:
     """Copy the fields of a span of nodes to a lane of the systems; ``place``: line and lane."""
-    (j, lane), south = place, row_below(place[0])
+    (j, lane), ny = place, film.p.shape[0]
+    south, north = row_below(j, ny), row_above(j, ny)
     eps_x, eps_y, cells, rest = film.eps_x, film.eps_y, relaxation.cells, relaxation.rest
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
     for i in range(span[0], span[1]):
         at = i + EMPTY_MARGIN_NODES
         cells[at, EAST, lane] = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
-        across = both(stencil, eps_y[j, i], eps_y[j + 1, i])
+        across = both(stencil, eps_y[j, i], eps_y[north, i])
         across = half_y * (across + both(stencil, eps_y[j, i], eps_y[south, i]))
         cells[at, ACROSS, lane] = across + relaxation.stiffness[j, i]
         cells[at, MASS_P, lane] = film.drho[j, i] * film.h[j, i]
@@ -464,12 +467,12 @@ def relax_lines(film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxa
         Settings and scratch arrays.
     """
     film, rhs, relaxation = raw((film, rhs, relaxation))
-    first = 0 if stencil.mirror else 1
+    first, ny = 0 if stencil.mirror else 1, film.p.shape[0]
     mark_dipoles(film, stencil, relaxation)
     clear(relaxation.delta)
     for colour in range(2):
-        for j in range(first + colour, film.p.shape[0] - 1, 2 * LANES):
-            count = min(LANES, (film.p.shape[0] - j) // 2)
+        for j in range(first + colour, inner_end(ny), 2 * LANES):
+            count = min(LANES, (inner_end(ny) + 1 - j) // 2)
             relax_batch(film, stencil, rhs, relaxation, (j, count))
     add_dipoles(film, relaxation, stencil.mirror)
 
@@ -479,12 +482,12 @@ def add_dipoles(film: Film, relaxation: LineRelaxation, mirror: int) -> None:
     """Add the stored dipoles to ``p`` and clip at zero unless asperities carry."""
     p, delta, ends, (ny, nx) = film.p, relaxation.delta, relaxation.ends, film.p.shape
     touches = film.stiffness.shape[0] > 0
-    for j in range(0 if mirror else 1, ny - 1):
-        south = row_below(j)
-        end = max(ends[j], ends[south], ends[j + 1])
+    for j in range(0 if mirror else 1, inner_end(ny)):
+        south, north = row_below(j, ny), row_above(j, ny)
+        end = max(ends[j], ends[south], ends[north])
         for i in range(1, min(end + 1, nx - 1)):
             around = relaxation.along * (delta[j, i - 1] + delta[j, i + 1])
-            around += relaxation.aside * (delta[south, i] + delta[j + 1, i])
+            around += relaxation.aside * (delta[south, i] + delta[north, i])
             changed = p[j, i] + delta[j, i] - around
             p[j, i] = changed if touches else max(changed, 0.0)
 
@@ -510,12 +513,12 @@ def relax_points(film: Film, stencil: Stencil, rhs: Array, self_film: Array, ome
     film, rhs, self_film = raw((film, rhs, self_film))
     ny, nx = film.p.shape
     p, eps_x, eps_y, rho, h = film.p, film.eps_x, film.eps_y, film.rho, film.h
-    for j in range(0 if stencil.mirror else 1, ny - 1):
-        south = row_below(j)
+    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
+        south, upper = row_below(j, ny), row_above(j, ny)
         for i in range(1, nx - 1):
             east = 0.5 * stencil.cx * (eps_x[j, i] + eps_x[j, i + 1])
             west = 0.5 * stencil.cx * (eps_x[j, i] + eps_x[j, i - 1])
-            north = 0.5 * stencil.cy * (eps_y[j, i] + eps_y[j + 1, i])
+            north = 0.5 * stencil.cy * (eps_y[j, i] + eps_y[upper, i])
             below = 0.5 * stencil.cy * (eps_y[j, i] + eps_y[south, i])
             mass, mass_w = rho[j, i] * h[j, i], rho[j, i - 1] * h[j, i - 1]
             if i == 1:
@@ -524,7 +527,7 @@ def relax_points(film: Film, stencil: Stencil, rhs: Array, self_film: Array, ome
                 mass_ww = rho[j, i - 2] * h[j, i - 2]
                 wedge = stencil.w0 * mass + stencil.w1 * mass_w + stencil.w2 * mass_ww
             flow = east * (p[j, i + 1] - p[j, i]) + west * (p[j, i - 1] - p[j, i])
-            flow += north * (p[j + 1, i] - p[j, i])
+            flow += north * (p[upper, i] - p[j, i])
             flow += below * (p[south, i] - p[j, i])
             slope = -(east + west + north + below)
             slope -= stencil.w0 * rho[j, i] * self_film[0]

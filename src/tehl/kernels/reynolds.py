@@ -49,9 +49,24 @@ class Stencil(NamedTuple):
 
 
 @helper
-def row_below(j: int) -> int:
-    """Return the row south of row ``j``: that of row 0 is the mirror image of row 1."""
-    return j - 1 if j > 0 else 1
+def row_below(j: int, ny: int) -> int:
+    """Return the row south of row ``j``: that of row 0 is the mirror image of row 1.
+
+    A line contact has one row of ``ny``, which is its own neighbour on both sides.
+    """
+    return j - 1 if j > 0 else min(1, ny - 1)
+
+
+@helper
+def row_above(j: int, ny: int) -> int:
+    """Return the row north of row ``j``."""
+    return min(j + 1, ny - 1)
+
+
+@helper
+def inner_end(ny: int) -> int:
+    """Return the row before which the inner rows end: the edge, if there is more than one."""
+    return max(ny - 1, 1)
 
 
 @helper
@@ -102,7 +117,7 @@ def line_operator(film: Film, stencil: Stencil, j: int, out: Array, place: tuple
 def _line_flow(film: Film, stencil: Stencil, j: int, out: Array, place: tuple[int, int]) -> None:
     """Write the pressure flow into each cell of line ``j`` to ``out``."""
     p, eps_x, eps_y, (row, end) = film.p, film.eps_x, film.eps_y, place
-    south, north = row_below(j), j + 1
+    south, north = row_below(j, p.shape[0]), row_above(j, p.shape[0])
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
     for i in range(1, end):
         east = both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
@@ -256,7 +271,7 @@ def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array, ends:
     """
     film, rhs, scratch, ends = raw((film, rhs, scratch, ends))
     partial, p, nx = film.partial, film.p, film.p.shape[1]
-    for j in range(0 if stencil.mirror else 1, p.shape[0] - 1):
+    for j in range(0 if stencil.mirror else 1, inner_end(p.shape[0])):
         if ends[j] == 0:
             continue
         end, to = ends[j], nx if ends[j] == nx - 1 else ends[j]
@@ -280,7 +295,7 @@ def keep_to_fronts(film: Film, mirror: int, width: int, frozen: FlagArray, ends:
         ends[j] = 0
         for i in range(nx):
             frozen[j, i] = 1
-    for j in range(0 if mirror else 1, ny - 1):
+    for j in range(0 if mirror else 1, inner_end(ny)):
         for i in range(1, nx - 1):
             if partial[j, i] > 0 or partial[j, i - 1] == 0:
                 continue
@@ -331,7 +346,7 @@ def oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -> None:
     for j in range(ny):
         for i in range(nx):
             held[j, i] = film.rho[j, i] * film.h[j, i]
-    for j in range(0 if stencil.mirror else 1, ny - 1):
+    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
         before, flux = inflow(film, stencil, j)
         held[j, 0] = before
         passed[j, 0] = flux - _face_flow(film, stencil, j, 0) / rate
@@ -365,9 +380,9 @@ def _face_flow(film: Film, stencil: Stencil, j: int, i: int) -> float:
 def _flow_into(film: Film, stencil: Stencil, j: int, i: int) -> tuple[float, float]:
     """Return the pressure flow into a partly filled cell, and what of it comes back downstream."""
     p, eps_x, eps_y = film.p, film.eps_x, film.eps_y
-    south, here = row_below(j), film.p[j, i]
+    south, north, here = row_below(j, p.shape[0]), row_above(j, p.shape[0]), film.p[j, i]
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
-    gained = half_y * both(stencil, eps_y[j, i], eps_y[j + 1, i]) * (p[j + 1, i] - here)
+    gained = half_y * both(stencil, eps_y[j, i], eps_y[north, i]) * (p[north, i] - here)
     gained += half_y * both(stencil, eps_y[j, i], eps_y[south, i]) * (p[south, i] - here)
     gained += half_x * both_x(stencil, eps_x[j, i - 1], eps_x[j, i]) * (p[j, i - 1] - here)
     from_east = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1]) * (p[j, i + 1] - here)
@@ -380,18 +395,19 @@ def operator(film: Film, stencil: Stencil, out: Array) -> None:
     """Write L(p) to ``out`` (ny, nx), zero on the edges."""
     film, out = raw((film, out))
     clear(out)
-    for j in range(0 if stencil.mirror else 1, film.p.shape[0] - 1):
+    for j in range(0 if stencil.mirror else 1, inner_end(film.p.shape[0])):
         line_operator(film, stencil, j, out, (j, film.p.shape[1] - 1))
 
 
 @helper
 def _node_diagonal(film: Film, stencil: Stencil, self_film: float, j: int, i: int) -> float:
     """Return ``-dL/dp`` of a node with itself; ``self_film``: dh/dp of a point on itself."""
-    eps_x, eps_y, south = film.eps_x, film.eps_y, row_below(j)
+    eps_x, eps_y, ny = film.eps_x, film.eps_y, film.p.shape[0]
+    south, north = row_below(j, ny), row_above(j, ny)
     along = both_x(stencil, eps_x[j, i], eps_x[j, i + 1]) + both_x(
         stencil, eps_x[j, i - 1], eps_x[j, i]
     )
-    across = both(stencil, eps_y[j, i], eps_y[j + 1, i]) + both(
+    across = both(stencil, eps_y[j, i], eps_y[north, i]) + both(
         stencil, eps_y[j, i], eps_y[south, i]
     )
     flow = 0.5 * stencil.cx * along + 0.5 * stencil.cy * across
@@ -404,7 +420,7 @@ def diagonal(film: Film, stencil: Stencil, self_film: float, out: Array) -> None
     film, out = raw((film, out))
     clear(out)
     ny, nx = film.p.shape
-    for j in range(0 if stencil.mirror else 1, ny - 1):
+    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
         for i in range(1, nx - 1):
             out[j, i] = _node_diagonal(film, stencil, self_film, j, i)
 
@@ -446,7 +462,7 @@ def residual(film: Film, stencil: Stencil, rhs: Array, self_film: float, out: Ar
     total, count = 0.0, 0
     clear(out)
     ny, nx = film.p.shape
-    for j in range(0 if stencil.mirror else 1, ny - 1):
+    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
         line_operator(film, stencil, j, out, (j, film.p.shape[1] - 1))
         for i in range(1, nx - 1):
             out[j, i] = rhs[j, i] - out[j, i]
@@ -470,8 +486,8 @@ def tangent_source(film: Film, stencil: Stencil, out: Array) -> None:
     p, eps, eps_x, eps_y = film.p, film.eps, film.eps_x, film.eps_y
     ny, nx = p.shape
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
-    for j in range(0 if stencil.mirror else 1, ny - 1):
-        south, north = row_below(j), j + 1
+    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
+        south, north = row_below(j, ny), row_above(j, ny)
         for i in range(1, nx - 1):
             east = both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
             east -= both_x(stencil, eps[j, i], eps[j, i + 1])

@@ -9,18 +9,19 @@ line and row -1 equals row 1.
 from tehl.base.typing import Array, FlagArray
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import clear
+from tehl.kernels.reynolds import clear, inner_end, row_above, row_below
 
 
 @helper
 def _weigh(fine: Array, j: int, i: int) -> float:
     """Full weighting of ``fine`` at fine node (j, i)."""
-    south = j - 1 if j > 0 else 1
+    ny = fine.shape[0]
+    south, north = row_below(j, ny), row_above(j, ny)
     return (
         0.25 * fine[j, i]
-        + 0.125 * (fine[j, i - 1] + fine[j, i + 1] + fine[south, i] + fine[j + 1, i])
+        + 0.125 * (fine[j, i - 1] + fine[j, i + 1] + fine[south, i] + fine[north, i])
         + 0.0625
-        * (fine[south, i - 1] + fine[south, i + 1] + fine[j + 1, i - 1] + fine[j + 1, i + 1])
+        * (fine[south, i - 1] + fine[south, i + 1] + fine[north, i - 1] + fine[north, i + 1])
     )
 
 
@@ -30,7 +31,7 @@ def restrict_residual(fine: Array, mirror: int, coarse: Array) -> None:
     fine, coarse = raw((fine, coarse))
     ny, nx = coarse.shape
     clear(coarse)
-    for j in range(0 if mirror else 1, ny - 1):
+    for j in range(0 if mirror else 1, inner_end(ny)):
         for i in range(1, nx - 1):
             coarse[j, i] = _weigh(fine, 2 * j, 2 * i)
 
@@ -53,7 +54,7 @@ def keep_residual(fine: Array, coarse: Array, mirror: int) -> None:
     """
     fine, coarse = raw((fine, coarse))
     ny, nx = fine.shape
-    for j in range(0 if mirror else 1, ny - 1):
+    for j in range(0 if mirror else 1, inner_end(ny)):
         low_j, high_j = j // 2, j // 2 + j % 2
         for i in range(1, nx - 1):
             low_i, high_i = i // 2, i // 2 + i % 2
@@ -73,12 +74,12 @@ def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
     for j in range(ny):
         for i in range(nx):
             fj, fi = 2 * j, 2 * i
-            if j == ny - 1 or i == 0 or i == nx - 1 or (j == 0 and mirror == 0):
+            if j == inner_end(ny) or i == 0 or i == nx - 1 or (j == 0 and mirror == 0):
                 coarse[j, i] = fine[fj, fi]
                 continue
-            south = fj - 1 if fj > 0 else 1
+            south, north = row_below(fj, fine.shape[0]), row_above(fj, fine.shape[0])
             smallest = abs(fine[fj, fi])
-            for row in (south, fj, fj + 1):
+            for row in (south, fj, north):
                 for column in range(fi - 1, fi + 2):
                     smallest = min(smallest, abs(fine[row, column]))
             coarse[j, i] = _weigh(fine, fj, fi) if smallest > 0.0 else fine[fj, fi]
@@ -108,7 +109,7 @@ def correct(
     part, limit, least = bounds
     p, coarse, before = raw((p, coarse, before))
     ny, nx = p.shape
-    for j in range(0 if mirror else 1, ny - 1):
+    for j in range(0 if mirror else 1, inner_end(ny)):
         low_j = j // 2
         high_j = low_j + (j % 2)
         for i in range(1, nx - 1):
@@ -141,7 +142,7 @@ def correct_fronts(
     """
     p, coarse, before = raw((p, coarse, before))
     ny, nx = p.shape
-    for j in range(0 if mirror else 1, ny - 1):
+    for j in range(0 if mirror else 1, inner_end(ny)):
         low_j, high_j = j // 2, j // 2 + j % 2
         for i in range(1, nx - 1):
             low_i, high_i = i // 2, i // 2 + i % 2
@@ -179,12 +180,12 @@ def freeze(
     fine, fine_frozen, coarse, out = raw((fine, fine_frozen, coarse, out))
     ny, nx = coarse.shape
     clear(out)
-    for j in range(0 if mirror else 1, ny - 1):
+    for j in range(0 if mirror else 1, inner_end(ny)):
         for i in range(1, nx - 1):
             if coarse[j, i] > limit:
                 continue
             fj, fi = 2 * j, 2 * i
-            for row in (fj - 1 if fj > 0 else 1, fj, fj + 1):
+            for row in (row_below(fj, fine.shape[0]), fj, row_above(fj, fine.shape[0])):
                 for column in range(fi - 1, fi + 2):
                     if fine[row, column] == 0.0 or fine_frozen[row, column]:
                         out[j, i] = 1

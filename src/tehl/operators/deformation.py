@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.contact.shape import LINE
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 from tehl.kernels.lanes import LANES
@@ -159,6 +160,8 @@ def choose(name: str, grid: Grid, groups: Groups, *, exact: bool = False) -> Def
         Whether ``"auto"`` takes a sum that is exact to rounding: the multilevel one errs by 4e-4 of
         a pressure peak of a few mesh widths.
     """
+    if groups.shape is LINE and name != "direct":
+        name = "lines"  # of one row: the sum by FFT
     if name == "auto":
         aspect = groups.ellipticity * grid.dy / grid.dx
         compact = 1.0 / LARGEST_ASPECT <= aspect <= LARGEST_ASPECT

@@ -264,6 +264,8 @@ def pressure_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array,
 
 def _slope_along(field: Array, spacing: float) -> Array:
     """Return the derivative along the first axis, of second order; `numpy.gradient` is slower."""
+    if len(field) == 1:  # of a line contact
+        return np.zeros_like(field)
     slope = np.empty_like(field)
     np.subtract(field[2:], field[:-2], out=slope[1:-1])
     slope[0] = 4.0 * field[1] - 3.0 * field[0] - field[2]

@@ -19,8 +19,10 @@ import numpy as np
 from scipy.linalg import solve_banded
 
 from tehl.base.typing import Array, BoolArray
+from tehl.contact.shape import LINE
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
+from tehl.operators.upstream import UpstreamField
 
 ANGLES = 1025
 """Nodes of f over the angle; the error of its values is below 1e-4 of its maximum."""
@@ -87,6 +89,19 @@ def _solve(to_last: Array, diagonal: Array, to_next: Array, source: Array, wet: 
     band[2, :-1] = np.where(wet, to_last, 0.0)[1:]
     f: Array = solve_banded((1, 1), band, np.where(wet, source, 0.0))
     return f
+
+
+def far_field(grid: Grid, groups: Groups) -> "FarField | UpstreamField":
+    """Return the pressure on the edges of a grid and the load outside of it.
+
+    Parameters
+    ----------
+    grid : Grid
+        Its edges.
+    groups : Groups
+        Shape, and lambda of the oil that enters.
+    """
+    return UpstreamField(grid, groups) if groups.shape is LINE else FarField(grid, groups)
 
 
 class EdgeSlopes(NamedTuple):

@@ -79,6 +79,9 @@ def full_weighting(fine: Array, *, mirror: bool) -> Array:
     Array
         Of shape (my, mx).
     """
+    if fine.shape[0] == 1:  # a line contact
+        fine = np.concatenate([fine, fine])
+        return full_weighting(np.concatenate([fine, fine[:1]]), mirror=True)[:1]
     padded = np.pad(fine, ((1, 1), (1, 1)), mode="edge")
     if mirror:
         padded[0] = padded[2]

@@ -1,14 +1,16 @@
 """Deflection of the elastic half-space by a uniform pressure on one mesh cell, in closed form.
 
-Love 1929; Johnson 1985, Contact Mechanics, eq. 3.25. Each node carries a uniform pressure over its
-own cell, so the only error of the discrete deflection is that of the stepped pressure.
+Love 1929; Johnson 1985, Contact Mechanics, eqs 3.25 and 2.24. Each node carries a uniform pressure
+over its own cell, so the only error of the discrete deflection is that of the stepped pressure.
 """
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.contact.shape import LINE
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 
@@ -57,6 +59,42 @@ class Influence:
         return self.factor * cells
 
 
+class LineInfluence(Influence):
+    """Influence in a line contact: -ln x^2 in place of 1/r; other rows than its own have none.
+
+    Parameters
+    ----------
+    dx, factor : float
+        Width of a cell [b], and 2 Pi / pi [-].
+    """
+
+    def __init__(self, dx: float, factor: float) -> None:
+        super().__init__(dx, math.inf, factor)
+
+    def __call__(self, dj: "ArrayLike | slice", di: "ArrayLike | slice") -> Array:
+        """Return the influence at offsets of ``dj`` rows and ``di`` columns; slices are ranges."""
+        x, row = self.dx * _offsets(di), _offsets(dj)
+        cell = -2.0 * (_end(x + 0.5 * self.dx) - _end(x - 0.5 * self.dx))
+        found: Array = np.where(row == 0.0, self.factor * cell, 0.0)
+        return found
+
+    def table(self, rows: int, columns: int) -> Array:
+        """Return the influence at offsets 0 to ``rows`` - 1 and 0 to ``columns`` - 1.
+
+        Parameters
+        ----------
+        rows, columns : int
+            Number of offsets along y and along x.
+        """
+        return self(np.arange(rows)[:, None], np.arange(columns)[None, :])
+
+
+def _end(x: Array) -> Array:
+    """Antiderivative of ln |x|; x is not zero, as the ends of cells lie between nodes."""
+    found: Array = x * (np.log(np.abs(x)) - 1.0)
+    return found
+
+
 def _offsets(nodes: "ArrayLike | slice") -> Array:
     if isinstance(nodes, slice):
         return np.arange(nodes.start, nodes.stop, dtype=float)
@@ -76,8 +114,10 @@ def influence_of(grid: Grid, groups: Groups) -> Influence:
     grid : Grid
         Its mesh widths are in Hertz half-widths.
     groups : Groups
-        Ellipticity kappa, by which widths along y are stretched, and the factor 2 Pi / pi.
+        Shape, of which kappa stretches the widths along y, and the factor 2 Pi / pi.
     """
+    if groups.shape is LINE:
+        return LineInfluence(grid.dx, groups.deflection_factor)
     return Influence(grid.dx, groups.ellipticity * grid.dy, groups.deflection_factor)
 
 

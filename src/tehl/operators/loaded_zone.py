@@ -57,7 +57,8 @@ def contact_mean(x: Array, y: Array, field: Array) -> float:
     field : (ny, nx) array
         Values at the nodes.
     """
-    cells = np.outer(np.diff(_edges(y)), np.diff(_edges(x))) * zone_part(x, y, radius=1.0)
+    rows = np.diff(_edges(y)) if y.size > 1 else np.ones(1)
+    cells = np.outer(rows, np.diff(_edges(x))) * zone_part(x, y, radius=1.0)
     return float((cells * field).sum() / cells.sum())
 
 

@@ -20,6 +20,9 @@ def refine(pressure: Array, fine: Grid) -> Array:
         Decides whether row 0 is the symmetry line.
     """
     rows = _cubic_along_x(pressure)
+    if fine.ny == 1:
+        rows[:, [0, -1]] = 0.0
+        return np.maximum(rows, 0.0)
     if fine.mirror:  # two mirrored rows make the symmetry line an inner one
         rows = np.concatenate([rows[2:0:-1], rows])
     field = _cubic_along_x(rows.T).T
@@ -44,7 +47,7 @@ def _cubic_along_x(values: Array) -> Array:
 
 
 def midpoints(values: Array) -> Array:
-    """Insert midpoints along the first and the last axis, linearly."""
+    """Insert midpoints along the first and the last axis, linearly; a single row stays one."""
     shape = (2 * values.shape[0] - 1, *values.shape[1:-1], 2 * values.shape[-1] - 1)
     fine = np.empty(shape)
     fine[::2, ..., ::2] = values

@@ -96,6 +96,11 @@ PICTURES: Pictures = {
     "residuals": residual_history,
 }
 """Pictures of every steady result."""
+OF_A_LINE = (
+    *("centre_lines", "rough_centre_line", "film_distribution", "temperature_section"),
+    *("stress", "residuals"),
+)
+"""Pictures of a line contact: curves along x and sections."""
 INTERFEROGRAMS: Pictures = {
     f"interferogram_{light}": partial(interferogram, optics=Optics(light=light))
     for light in ("white", "dichromatic", "monochromatic")
@@ -132,8 +137,6 @@ def pictures_of(result: Solution | TransientSolution, smooth: Solution | None = 
         found["film_distribution"] = film_distribution
     if result.shear is not None and result.problem.slide_roll_ratio != 0:
         found["shear_stress"] = shear_stress_map
-    if result.stress is not None:
-        found["stress"] = stress_section
     if result.heat is not None:
         found["temperature"] = mid_film_temperature
         found["temperature_layers"] = temperature_layers
@@ -142,11 +145,13 @@ def pictures_of(result: Solution | TransientSolution, smooth: Solution | None = 
     solids = (result.problem.surface_1.material, result.problem.surface_2.material)
     if any(solid.transparent for solid in solids):
         found |= INTERFEROGRAMS
+    if result.problem.contact.is_line:
+        return {name: draw for name, draw in found.items() if name in OF_A_LINE}
     return found
 
 
 def _of_oil(result: Solution) -> Pictures:
-    """Return the functions that draw oil, contact and dynamics, by name."""
+    """Return the functions that draw oil, contact, dynamics and stress, by name."""
     found: Pictures = {}
     if load_sharing(result) is not None:  # none if the run diverged
         found["asperities"] = asperity_map
@@ -158,6 +163,8 @@ def _of_oil(result: Solution) -> Pictures:
         found["passes"] = pass_history
     if result.dynamics is not None:
         found["dynamics"] = dynamics_curves
+    if result.stress is not None:
+        found["stress"] = stress_section
     return found
 
 

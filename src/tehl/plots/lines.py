@@ -43,8 +43,8 @@ _PROFILES = 45
 def centre_lines(result: Solution, *, title: bool | None = True) -> Figure:
     """Draw pressure and film along x (y = 0) and along y (x = 0), with the dry contact dashed.
 
-    Pressure [GPa] and film [um] share the x axis; a thermal run has two more panels beside them,
-    with the temperature rises [K].
+    A line contact has them along x alone. Pressure [GPa] and film [um] share the x axis; a thermal
+    run has two more panels beside them, with the temperature rises [K].
 
     Parameters
     ----------
@@ -54,12 +54,16 @@ def centre_lines(result: Solution, *, title: bool | None = True) -> Figure:
         Whether the figure has a title.
     """
     thermal = result.heat is not None
-    picture = figure(result, (12.4, 7.2) if thermal else (7.2, 7.2), title=title)
-    grid = picture.subplots(2, 2 if thermal else 1, squeeze=False)
+    rows = 1 if result.problem.contact.is_line else 2
+    size = (12.4 if thermal else 7.2, 4.4 if rows == 1 else 7.2)
+    picture = figure(result, size, title=title)
+    grid = picture.subplots(rows, 2 if thermal else 1, squeeze=False)
     column = int(np.argmin(np.abs(result.scaled.x)))
-    lines: tuple[Line, Line] = ((centre_row(result), slice(None)), (slice(None), column))
-    profiles = (profile_x(result), profile_y(result))
-    for panels, profile, (low, high), line in zip(grid, profiles, WINDOW, lines, strict=True):
+    lines: tuple[Line, ...] = ((centre_row(result), slice(None)), (slice(None), column))[:rows]
+    profiles = (profile_x(result), *([profile_y(result)] if rows == 2 else []))
+    for panels, profile, (low, high), line in zip(
+        grid, profiles, WINDOW[:rows], lines, strict=True
+    ):
         place, scaled = profile.coordinate * MICRO, profile.scaled_coordinate
         curves = [_pressure_and_film(panels[0], result, profile)]
         if thermal:
@@ -71,9 +75,10 @@ def centre_lines(result: Solution, *, title: bool | None = True) -> Figure:
         shown = place[(scaled >= low) & (scaled <= high)]
         for axes in panels:
             axes.set_xlim(shown[0], shown[-1])
-    for (upper, lower), handles in zip(grid.T, curves, strict=True):
-        upper.set_xlabel(ALONG_X)
+    for stacked, handles in zip(grid.T, curves, strict=True):
+        upper, lower = stacked[0], stacked[-1]
         lower.set_xlabel("y [µm]  (x = 0)")
+        upper.set_xlabel("x along entrainment [µm]" if rows == 1 else ALONG_X)
         below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.15)}
         lower.legend(handles=handles, ncols=4, **below, **PLAIN)
     return picture

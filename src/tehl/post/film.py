@@ -96,13 +96,15 @@ def mass_flow(result: Solution) -> MassFlow:
     lubricant, temperature = result.problem.lubricant, result.scales.temperature
     density = lubricant.density.density(pressure, temperature)
     conductance = density * film**3 / (12.0 * lubricant.viscosity.viscosity(pressure, temperature))
-    slope_y, slope_x = np.gradient(pressure, y, x, edge_order=2)
+    slope_x = np.gradient(pressure, x, axis=1, edge_order=2)
+    slope_y = np.gradient(pressure, y, axis=0, edge_order=2) if y.size > 1 else 0.0 * pressure
     along = density * result.scales.speed * film - conductance * slope_x
     forward = cell_widths(y) @ along
     leaving = (conductance * slope_y)[0] - (conductance * slope_y)[-1]
     steps = 0.5 * (leaving[1:] + leaving[:-1]) * np.diff(x)
     sideways = np.concatenate([[0.0], np.cumsum(steps)])
-    full = np.logical_and.accumulate((result.scaled.pressure[1:-1, 1:] > 0).all(axis=0))
+    inner = result.scaled.pressure[1:-1] if y.size > 1 else result.scaled.pressure
+    full = np.logical_and.accumulate((inner[:, 1:] > 0).all(axis=0))
     full = np.concatenate([full[:1], full])
     total = (forward + sideways)[1:][full[1:]]
     change = float(np.ptp(total) / np.abs(total).max()) if total.size else 0.0

@@ -6,6 +6,7 @@ from tehl.post.bodies import Bodies, bodies
 from tehl.post.boundary_contact import Touching, touching
 from tehl.post.film import mean_film
 from tehl.post.heat import Temperature, temperature, work_error
+from tehl.post.rolling import Rolling, rolling_friction
 from tehl.post.roughness import RoughFilm, rough_film
 from tehl.post.starvation import Starvation, starvation
 from tehl.post.stress.numbers import StressNumbers, stress_numbers
@@ -30,6 +31,11 @@ class Following:
     def traction(self) -> Traction | None:
         """Traction, None without shear stresses."""
         return traction(self.solution)
+
+    @cached_property
+    def rolling(self) -> Rolling | None:
+        """Rolling friction of a line contact, None for other shapes."""
+        return rolling_friction(self.solution)
 
     @cached_property
     def temperature(self) -> Temperature | None:

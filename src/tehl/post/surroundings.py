@@ -70,7 +70,11 @@ def surroundings(
         Normal load [N].
     """
     problem, scales = result.problem, result.scales
-    if problem.supply is not None or not np.isfinite(result.scaled.film).all():
+    if (
+        problem.supply is not None
+        or problem.contact.is_line
+        or not np.isfinite(result.scaled.film).all()
+    ):
         return None
     length = scales.half_width_x / scales.film_thickness  # a_x in units of the film: R_x / a_x
     outer = length * math.sqrt(2.0 * LARGEST_GAP)

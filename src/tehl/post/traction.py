@@ -122,7 +122,12 @@ def under_pressure(result: Solution) -> Array:
 
 
 def cell_widths(axis: Array) -> Array:
-    """Return the width of the cell around each node of ``axis``, a half cell at the ends."""
+    """Return the width of the cell around each node of ``axis``, a half cell at the ends.
+
+    A single row stands for one metre of a line contact.
+    """
+    if axis.size == 1:
+        return np.ones(1)
     widths = np.gradient(axis)
     widths[[0, -1]] *= 0.5
     return np.asarray(widths)

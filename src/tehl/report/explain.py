@@ -1,5 +1,6 @@
 """Explain a case before the solve, by formulas alone."""
 
+import math
 from dataclasses import asdict, dataclass
 from html import escape
 from typing import Any
@@ -293,11 +294,16 @@ def _contact_as_summary(case: Explanation) -> dict[str, Any]:
     groups = {"hertz_pressure_pa": hertz.pressure, "hertz_half_width_m": hertz.half_width_x}
     return {
         "title": problem.title,
-        "groups": asdict(case.scaled.groups) | groups,
-        "hertz": asdict(hertz),
-        "load_n": problem.load,
+        "groups": _finite(asdict(case.scaled.groups)) | groups,
+        "hertz": _finite(asdict(hertz)),
+        "load_n_per_m" if problem.contact.is_line else "load_n": problem.load,
         "entrainment_speed_m_s": problem.entrainment_speed,
         "reduced_modulus_pa": problem.reduced_modulus,
         "radius_x_m": problem.radius_x,
-        "radius_y_m": problem.radius_y,
+        "radius_y_m": None if problem.contact.is_line else problem.radius_y,
     }
+
+
+def _finite(numbers: dict[str, float]) -> dict[str, float | None]:
+    """Return numbers, None for those that a line contact does not have."""
+    return {name: one if math.isfinite(one) else None for name, one in numbers.items()}

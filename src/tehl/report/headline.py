@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from tehl.base.wording import grid_size
 from tehl.result.registry import shown_in
 
 Summary = Mapping[str, Any]
@@ -31,7 +32,7 @@ def headline(summary: Summary) -> dict[str, str]:
     return {
         "status": ": ".join(outcome).replace("_", " "),
         **(_transient(summary) if transient else _steady(summary)),
-        "grid": "{} x {} nodes".format(*start["cost"]["points"]),
+        "grid": grid_size(start["cost"]["points"]),
     }
 
 

@@ -1,7 +1,7 @@
 """Plausibility of a case: typical ranges of its values, unusual combinations."""
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tehl.base.units import percentage
 from tehl.contact.heat import FAR_BODY, LAYERS
@@ -121,13 +121,16 @@ def typical_ranges(scaled: ScaledProblem) -> Iterator[Typical]:
     problem, groups, hertz = scaled.problem, scaled.groups, scaled.problem.hertz
     slender = hertz.half_width_x / problem.radius_x
     soft, rigid = "check for a soft or lightly loaded contact", "check that the contact is elastic"
+    across: tuple[Any, ...] = (
+        ("reduced radius_y", problem.radius_y, 1e-4, 5, "m", _UNIT),
+        ("a_y / a_x", groups.ellipticity, 0.05, 30, "", "check the order of the radii", _WIDE),
+    )
     for row in (
         ("Hertz pressure", hertz.pressure / 1e9, 0.05, 4, "GPa", soft, _YIELD),
         ("reduced radius_x", problem.radius_x, 1e-4, 5, "m", _UNIT),
-        ("reduced radius_y", problem.radius_y, 1e-4, 5, "m", _UNIT),
         ("entrainment speed", problem.entrainment_speed, 1e-4, 100, "m/s", _UNIT),
         ("a_x / R_x", slender, 0, 0.2, "", "the solids are not half-spaces on this scale"),
-        ("a_y / a_x", groups.ellipticity, 0.05, 30, "", "check the order of the radii", _WIDE),
+        *(() if problem.contact.is_line else across),
         ("Moes M", groups.M, 1, 10000, "", rigid, "check the load: a very fine grid is needed"),
         ("Moes L", groups.L, 0, 25, "", "check speed and viscosity"),
     ):

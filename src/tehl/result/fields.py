@@ -40,7 +40,9 @@ class Fields(_ReadOnly):
 
 
 def _parabola(axis: Array) -> tuple[slice, Array]:
-    """Return three nodes near 0 and the weights of their values at 0."""
+    """Return three nodes near 0 and the weights of their values at 0; of one node itself."""
+    if axis.size == 1:
+        return slice(0, 1), np.ones(1)
     middle = int(np.clip(np.argmin(np.abs(axis)), 1, axis.size - 2))
     t = -axis[middle] / (axis[middle + 1] - axis[middle])
     weights = np.array([t * (t - 1) / 2, 1 - t**2, t * (t + 1) / 2])

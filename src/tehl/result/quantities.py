@@ -70,6 +70,11 @@ def _lists(block: str, keys: str) -> Iterator[Quantity]:
         yield Quantity(f"{block}.{key}.0")
 
 
+def _finite(value: float) -> float | None:
+    """Return a number, None where it is infinite: that of an ellipse which is a line."""
+    return value if math.isfinite(value) else None
+
+
 def _positive(value: float) -> float | None:
     """Return a film, None where it is not positive."""
     return value if value > 0 else None
@@ -137,7 +142,9 @@ QUANTITIES: tuple[Quantity, ...] = (
         digits="0.00",
         words={"axis": "L", "list": "Moes L"},
     ),
-    *_of_part("groups", "groups", "U W G lambda_bar alpha_bar ellipticity radius_ratio"),
+    *_of_part("groups", "groups", "U W G lambda_bar alpha_bar"),
+    Quantity("groups.ellipticity", lambda result: _finite(result.groups.ellipticity)),
+    *_of_part("groups", "groups", "radius_ratio"),
     Quantity(
         "groups.hertz_pressure_pa",
         lambda result: result.scales.hertz_pressure,
@@ -153,7 +160,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     ),
     Quantity(
         "groups.hertz_half_width_y_m",
-        lambda result: result.scales.half_width_y,
+        lambda result: None if result.problem.contact.is_line else result.scales.half_width_y,
         unit="um",
         digits="0.0",
         words={"list": "a_y"},
@@ -293,6 +300,15 @@ QUANTITIES: tuple[Quantity, ...] = (
     *_plain("traction", "surface_2 rolling rolling_by_film closure_error credible"),
     *_plain("traction", "friction_power_w"),
     *_plain("traction.surroundings", "surface_1 mid_film surface_2 friction_power_w radius_m"),
+    Quantity(
+        "rolling.moment_n_m",
+        lambda rolling: rolling.moment,
+        name="rolling",
+        certified="following",
+        words={"axis": "rolling moment of one metre [N m]"},
+    ),
+    Quantity("rolling.force_n", lambda rolling: rolling.force, name="rolling"),
+    *_plain("rolling", "shift_m tail_share closure_error T"),
     Quantity("heat.shear_w", lambda heat: heat.balance.shear, name="heat_shear"),
     Quantity("heat.compression_w", lambda heat: heat.balance.compression, name="heat_compression"),
     Quantity("heat.surface_1_w", lambda heat: heat.balance.surface_1, name="heat_surface_1"),

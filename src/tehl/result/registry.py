@@ -18,6 +18,7 @@ OWNERS: dict[str, Callable[[Any], Any]] = {
     "temperature": lambda found: found.temperature,
     "traction": lambda found: found.traction,
     "traction.surroundings": lambda found: found.traction and found.traction.surroundings,
+    "rolling": lambda found: found.rolling,
     "heat": lambda found: found.solution.heat,
     "bodies": lambda found: found.bodies,
     "roughness": lambda found: found.rough,
@@ -61,7 +62,16 @@ _FIRST: dict[str, tuple[str, ...]] = {
 }
 """Quantities that stand first in a place, in this order; the others follow their block, or all, in
 the order of the table."""
-_BARS_OF = ("pressure", "traction", "temperature", "load_sharing", "touching", "roughness", "heat")
+_BARS_OF = (
+    "pressure",
+    "traction",
+    "rolling",
+    "temperature",
+    "load_sharing",
+    "touching",
+    "roughness",
+    "heat",
+)
 """Blocks in the order of their error bars in the summary."""
 
 

@@ -49,7 +49,7 @@ def fft_seconds(nx: int, ny: int) -> float:
         fewer = [min(n, TIMED) for n in (nx, ny)]
         growth = math.log(nx * ny) / math.log(math.prod(fewer))
         return fft_seconds(*fewer) * growth * (nx * ny) / math.prod(fewer)
-    shape = (2 * (ny - 1), 2 * (nx - 1))
+    shape = (2 * (ny - 1) or 1, 2 * (nx - 1))
     padded, spectrum = np.zeros(shape), np.ones((shape[0], shape[1] // 2 + 1))
     transform, convolved = np.zeros(spectrum.shape, complex), np.zeros(shape)
     padded[:ny, :nx] = 1.0

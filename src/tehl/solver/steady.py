@@ -11,6 +11,7 @@ import numpy as np
 
 from tehl.base.errors import InputError
 from tehl.base.units import percentage
+from tehl.base.wording import grid_size
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import domain_of, planned, settled
@@ -171,7 +172,7 @@ def _after_failure(
         return failed
     if not kept.status.converged:
         return failed
-    text = f"The film on {nx} x {ny} nodes is kept; its error is about {percentage(error)}."
+    text = f"The film on {grid_size((nx, ny))} is kept; its error is about {percentage(error)}."
     status = replace(failed.status, kind="not_converged", message=f"{failed.status.message} {text}")
     return kept.but(
         options=failed.options,
@@ -325,7 +326,7 @@ def _run(run: FilmSolver, *, force: bool) -> Attempt:
         except MemoryError:
             nx, ny = run.finest.grid.points
             del run.levels[len(run.traces) :]
-            message = f"The memory is not enough for {nx} x {ny} nodes."
+            message = f"The memory is not enough for {grid_size((nx, ny))}."
             status = Status(kind="not_converged", cause=NO_MEMORY, message=message)
             return Attempt(run=run, status=status, reached=False)
     return Attempt(run=run, status=verdict(run, reached=reached), reached=reached)

@@ -18,13 +18,14 @@ from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.starvation import EnteringOil, entering_oil, supplied_film
 from tehl.kernels import reynolds
 from tehl.operators.deformation import Deformation, choose
-from tehl.operators.far_field import FarField
+from tehl.operators.far_field import FarField, far_field
 from tehl.operators.film import gap
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence, influence_of
 from tehl.operators.load import Load
 from tehl.operators.reynolds import steady_stencil
 from tehl.operators.summits import AsperityTable, asperity_table
+from tehl.operators.upstream import UpstreamField
 
 FLOOR = 0.02
 """Least film in the conductance, over the expected central film."""
@@ -50,7 +51,7 @@ class Equations:
     """Integral of P over the domain [-]."""
     gap: Array
     """Undeformed gap [-], ``grid.shape``."""
-    far_field: FarField | None
+    far_field: FarField | UpstreamField | None
     """Pressure on the edges and load outside; None if the pressure is zero there."""
     layer: Array | None
     """Oil that enters each line, ``rho H``, (ny,), infinite if flooded; None if oil is not
@@ -107,7 +108,7 @@ class Equations:
             target=load * groups.shape.load,
             gap=gap(grid, groups),
             far_field=(
-                FarField(grid, scaled.entering) if options.has_far_field and not starved else None
+                far_field(grid, scaled.entering) if options.has_far_field and not starved else None
             ),
             layer=_layer(scaled, oil, grid),
             asperities=asperity_table(scaled),

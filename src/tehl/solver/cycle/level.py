@@ -16,6 +16,7 @@ from tehl.base.typing import Array, FlagArray
 from tehl.estimate.grid import Grid
 from tehl.kernels import properties, reynolds, transfer
 from tehl.operators.far_field import FarField
+from tehl.operators.upstream import UpstreamField
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Relaxation, make_smoother
 from tehl.solver.judging.film_summary import central_value
@@ -65,7 +66,7 @@ class Level:
         return self.equations.grid
 
     @property
-    def far_field(self) -> FarField | None:
+    def far_field(self) -> FarField | UpstreamField | None:
         """Pressure on the edges and load outside of the finest level; None if it is zero."""
         return self.equations.far_field if self.is_finest else None
 

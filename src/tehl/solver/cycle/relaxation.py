@@ -55,6 +55,11 @@ CAREFUL = Relaxation(name="careful", threshold=1.0, point=0.5, dipole=0.35, line
 DAMPED = Relaxation(name="damped", threshold=1.0, point=0.3, dipole=0.2, lines=4, stiff=True)
 BESIDE_NEWTON = Relaxation(name="newton", threshold=1.0, point=0.5, dipole=0.35)
 GAUSS_SEIDEL = Relaxation(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
+HELD, LINE_THRESHOLD, LINE_POINT, LINE_DIPOLE = 1.0, 3.0, 0.7, 0.67
+"""In a line contact: conductance to neighbours that are held, over that along the line, and factors
+on the settings. The one line holds all unknowns, and its system lacks the deflection from afar: it
+must not move smooth errors, as lines between held ones do not. Least number of cycles for M = 5 to
+200, L = 0 to 11 on 513 to 2049 nodes: 0.2 to 0.5 of the residual is left by each."""
 
 
 class Smoother(Protocol):
@@ -82,8 +87,11 @@ def _dipole_parts(influence: Influence, stencil: Stencil) -> tuple[float, float]
 
     A quarter each (Venner and Lubrecht 2000) on square cells. On cells longer along one direction
     the neighbours there are too far to cancel the film of the node: each part is in proportion to
-    the inverse square of the distance. Wedges of second order keep the quarters.
+    the inverse square of the distance. Wedges of second order keep the quarters. On a line contact
+    there are two neighbours.
     """
+    if stencil.cy == 0.0:
+        return 0.5, 0.0
     if stencil.third == 0.0:
         return 0.25, 0.25
     ratio = (influence.dx / influence.dy) ** 2
@@ -149,6 +157,9 @@ class LineSmoother:
         """
         if self.is_stiff:
             kernels.stiffen(film, stencil, flow, self.stiffness)
+        if stencil.cy == 0.0:
+            held = HELD * stencil.cx * film.eps_x
+            self.stiffness[:] = self.stiffness + held if self.is_stiff else held
         kernels.relax_lines(film, stencil, rhs, self.workspace)
 
 
@@ -191,6 +202,13 @@ def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
     """
     if relaxation is GAUSS_SEIDEL:
         return PointSmoother(equations.grid, equations.influence, relaxation)
+    if equations.stencil.cy == 0.0:
+        relaxation = replace(
+            relaxation,
+            threshold=LINE_THRESHOLD * relaxation.threshold,
+            point=LINE_POINT * relaxation.point,
+            dipole=LINE_DIPOLE * relaxation.dipole,
+        )
     influence, touches = equations.influence, equations.asperities is not None
     parts = _dipole_parts(influence, equations.stencil)
     return LineSmoother(equations.grid, influence, relaxation, touches=touches, parts=parts)

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from tehl.base.units import percentage
+from tehl.base.wording import grid_size
 from tehl.contact.heat import FAR_BODY, FilmEnergy
 from tehl.contact.options import LARGEST_ERROR, USUAL_PLAIN_ERROR
 from tehl.contact.problem import ContactProblem
@@ -44,11 +45,12 @@ class LikelyCause(NamedTuple):
 
 def diverged(run: FilmSolver) -> Status:
     """Return the status of a run that diverged, with its likely cause."""
-    (nx, ny), groups = run.finest.grid.points, run.groups
-    what = f"The iteration diverged on {nx} x {ny} nodes at M = {groups.M:.4g}, L = {groups.L:.4g}."
+    points, groups = run.finest.grid.points, run.groups
+    nodes = grid_size(points)
+    what = f"The iteration diverged on {nodes} at M = {groups.M:.4g}, L = {groups.L:.4g}."
     found, other = _likely_cause(run), _smoother_hint(run) or _error_hint(run)
     if found is None:
-        hint = LESS_ROUGH if run.roughness.is_rough else grid_hint((nx, ny), run.hierarchy.scaled)
+        hint = LESS_ROUGH if run.roughness.is_rough else grid_hint(points, run.hierarchy.scaled)
         return Status(kind="diverged", cause="diverged", message=what, hint=other or hint)
     message = f"{what} Likely cause: {found.message}"
     return Status(kind="diverged", cause=found.cause, message=message, hint=other or found.hint)
@@ -124,7 +126,7 @@ def _error_hint(run: FilmSolver) -> Hint | None:
     if reached is None:
         return None
     (nx, ny), error = reached
-    advice = f"{nx} x {ny} nodes converged to an error of {percentage(error)}."
+    advice = f"{grid_size((nx, ny))} converged to an error of {percentage(error)}."
     return Hint(advice, error_setting(error))
 
 

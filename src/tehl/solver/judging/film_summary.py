@@ -64,7 +64,7 @@ def film_summary(grid: Grid, film: Array, least: float | None = None) -> FilmSum
         Boundary film H, the minimum between nodes that touch; None where surfaces do not touch.
     """
     full = grid.unfold(film)
-    row = grid.domain.y[0] + grid.dy * np.arange(grid.ny)
+    row = grid.y if grid.ny == 1 else grid.domain.y[0] + grid.dy * np.arange(grid.ny)
     j, i = (int(n) for n in np.unravel_index(int(full.argmin()), full.shape))
     # `SPLINE_NODES` nodes on each side of (j, i), symmetrically fewer near edges
     across, along = min(SPLINE_NODES, j, grid.ny - 1 - j), min(SPLINE_NODES, i, grid.nx - 1 - i)

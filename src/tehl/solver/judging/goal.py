@@ -4,6 +4,7 @@ import time
 from dataclasses import dataclass, field, replace
 
 from tehl.base.units import percentage
+from tehl.base.wording import grid_size
 from tehl.contact.options import Domain, Options, can_be_halved
 from tehl.estimate.domain import far_field_error
 from tehl.estimate.entering import entry_error
@@ -69,6 +70,7 @@ def _by_grids(
             domain,
             newtonian=newtonian,
             extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == comparable[-2:],
+            line=level.grid.ny == 1,
         )
     # grids that resolve the same heights
     comparable = [trace for trace in traces[roughness.first_comparable :] if not trace.diverged]
@@ -175,12 +177,12 @@ class Goal:
             self.obstacle = f"grids have at most {MOST_NODES_PER_AXIS} nodes along one direction"
         elif needed > available:
             self.obstacle = (
-                f"{nx} x {ny} nodes need {needed / 1e9:.2g} GB of memory, and "
+                f"{grid_size((nx, ny))} need {needed / 1e9:.2g} GB of memory, and "
                 f"{_named_limit(self.options, available)}"
             )
         elif now - self._started + expected > limit:
             self.obstacle = (
-                f"{nx} x {ny} nodes would take {expected:.3g} s more, and numerics.max_time is "
+                f"{grid_size((nx, ny))} would take {expected:.3g} s more, and numerics.max_time is "
                 f"{limit:g} s"
             )
         return not self.obstacle

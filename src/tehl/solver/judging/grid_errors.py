@@ -18,6 +18,9 @@ ROUGH_PART = 0.7
 """Error over the last change of the film between grids that resolve the heights: a third if of
 second order; measured up to 0.65 for the minimum film between waves (87 of them, 257 and 513
 nodes)."""
+LINE_MINIMUM = 2.0
+"""Factor on the bar of the minimum of a line contact with a wedge of third order: without it 95 %
+of 120 random films lie inside, as judged on 8193 and 16385 nodes, with it 97 %."""
 THIRD_PART = 0.6
 """The same of a wedge of third order."""
 SMOOTH_PART, WAVE_PART = 1.7, 20.0
@@ -51,7 +54,7 @@ SHARED = 0.25
 coarse grids may agree on a thin minimum by chance."""
 
 
-def error_estimate(
+def error_estimate(  # noqa: PLR0913 (one estimate)
     traces: list[GridTrace],
     order: int,
     domain: float = 0.0,
@@ -59,6 +62,7 @@ def error_estimate(
     rough: bool = False,
     newtonian: bool = False,
     extrapolate: bool = False,
+    line: bool = False,
 ) -> ErrorEstimate:
     """Estimate the relative errors of the film on the last of two or more grids.
 
@@ -77,6 +81,8 @@ def error_estimate(
         is not resolved.
     extrapolate : bool
         Whether the last two grids are combined if they show the order.
+    line : bool
+        Whether it is a line contact, whose minimum follows the spike of its pressure.
     """
     bars: list[float] = []
     changes: list[float] = []
@@ -88,6 +94,8 @@ def error_estimate(
         changes.append(abs(values[-1] - values[-2]))
         if rough and changes[-1] > film:  # far from the limit
             bar = changes[-1]
+        if line and order > 2 and name == "minimum":
+            bar *= LINE_MINIMUM
         bars.append(max(bar, SHARED * changes[0]) / film)
     estimate = _estimate(traces[-1], domain, *bars)
     combined: Any = extrapolated_bars(traces, order) if extrapolate else None
@@ -98,6 +106,8 @@ def error_estimate(
     if newtonian and not resolved:  # the stress at the spike grows with its viscosity
         found.pop("traction_mid_film", None)
     _limit_bars(found, traces, estimate.central, resolved=resolved)
+    if "rolling" in found:
+        found["rolling"] += traces[-1].measured["rolling_tail"]
     return replace(estimate, bars=found, spike_resolved=resolved)
 
 
@@ -189,7 +199,7 @@ def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> 
     found = {}
     for name, last in traces[-1].measured.items():
         values = [one.measured[name] for one in traces[-3:] if name in one.measured]
-        if name in ("spike", "excess", *FILM) or len(values) < 2 or last == 0.0:
+        if name in ("spike", "excess", "rolling_tail", *FILM) or len(values) < 2 or last == 0.0:
             continue
         bar = max(discretisation_bar(values, otherwise), abs(values[-1] - values[-2]))
         if "rise" in name:

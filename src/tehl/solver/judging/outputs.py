@@ -116,7 +116,7 @@ def heat_balance(state: FilmState) -> HeatBalance:
     carried = np.zeros_like(pressure)
     carried[1:-1] += 0.5 * terms.over_x * (along[2:] - along[:-2])
     carried[:, 1:-1] += 0.5 * terms.over_y * (sideways[:, 2:] - sideways[:, :-2])
-    if terms.mirror:
+    if terms.mirror and grid.ny > 1:
         carried[:, 0] += terms.over_y * sideways[:, 1]
     area = np.zeros_like(pressure)
     area[inner] = 2.0 if terms.mirror else 1.0
@@ -234,7 +234,8 @@ def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:
     film = level.film
     full = film.rho * np.maximum(film.h, level.equations.floor)
     fill = np.where(film.partial > 0, np.minimum(held / full, 1.0), 1.0)
-    fill[-1] = fill[-2]  # nothing is solved on the edges
+    if grid.ny > 1:
+        fill[-1] = fill[-2]  # nothing is solved on the edges
     if not grid.mirror:
         fill[0] = fill[1]
     return FilmOil(
@@ -263,11 +264,13 @@ def oil_balance(level: Level, *, until: float = np.inf) -> float:
     _, passed = oil_flow(level)
     film, stencil, mirror = secant(level.film), level.stencil, level.grid.mirror
     weights = np.ones(passed.shape[0])
-    weights[0] = 0.5 if mirror else 0.0
-    weights[-1] = 0.0
+    if level.grid.ny > 1:
+        weights[0] = 0.5 if mirror else 0.0
+        weights[-1] = 0.0
     through = weights @ passed[:, :-1]
     sides = np.zeros(passed.shape[1])
-    for edge, inner in ((-1, -2), (0, 1))[: 1 if mirror else 2]:
+    edges = ((-1, -2), (0, 1))[: 1 if mirror else 2] if level.grid.ny > 1 else ()
+    for edge, inner in edges:
         eps = conductance(stencil, film.eps_y[edge], film.eps_y[inner])
         sides += stencil.cy * eps * (film.p[edge] - film.p[inner])
     gained = np.cumsum(sides[1:-1]) / (stencil.w0 - stencil.w2)

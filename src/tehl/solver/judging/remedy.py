@@ -8,6 +8,7 @@ from functools import partial
 
 from tehl.base.errors import TehlError
 from tehl.base.units import percentage
+from tehl.base.wording import grid_size
 from tehl.contact.options import Domain, Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import FAMILIES, planned
@@ -97,7 +98,7 @@ def working_hint(
             return found
     if reached is not None:
         (nx, ny), error = reached
-        return Hint(f"{nx} x {ny} nodes converged.", error_setting(error))
+        return Hint(f"{grid_size((nx, ny))} converged.", error_setting(error))
     return Hint("No setting is known with which this contact converges.")
 
 
@@ -110,7 +111,7 @@ def _tried(settings: Settings, solve: Callable[[], Solution]) -> Hint | None:
     if not result.status.converged or result.errors is None:
         return None
     (ny, nx), error = result.scaled.film.shape, max(result.errors.central, result.errors.minimum)
-    advice = f"{nx} x {ny} nodes then converge to an error of {percentage(error)}."
+    advice = f"{grid_size((nx, ny))} then converge to an error of {percentage(error)}."
     return Hint(advice, settings)
 
 

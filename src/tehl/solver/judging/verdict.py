@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from tehl.base.units import percentage
+from tehl.base.wording import grid_size
 from tehl.estimate.domain import domain_error
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import is_starved
@@ -104,7 +105,7 @@ def too_coarse(points: tuple[int, int], scaled: ScaledProblem, error: float) -> 
     size = "above 100 %" if error > 1.0 else f"{100 * error:.0f} %"
     return _failed(
         "grid_too_coarse",
-        f"The grid of {points[0]} x {points[1]} nodes is too coarse for the film: its estimated "
+        f"The grid of {grid_size(points)} is too coarse for the film: its estimated "
         f"relative error is {size}.",
         grid_hint(points, scaled),
     )
@@ -117,7 +118,7 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     if not level.is_resolved:
         return _failed(
             "film_not_positive",
-            f"The discrete film is not positive on {points[0]} x {points[1]} nodes (smallest H = "
+            f"The discrete film is not positive on {grid_size(points)} (smallest H = "
             f"{smallest:.3g}): the grid is too coarse for the film.",
             grid_hint(points, run.hierarchy.scaled),
         )
@@ -157,7 +158,7 @@ def _minimum_open(level: Level, error: float) -> Status:
         kind="converged",
         message=(
             f"The minimum film, at X = {x:.3g}, Y = {y:.3g} (half-widths), has a relative error of "
-            f"about {100 * error:.0f} % on {level.grid.nx} x {level.grid.ny} nodes: it is thin, at "
+            f"about {100 * error:.0f} % on {grid_size(level.grid.points)}: it is thin, at "
             f"most about H = {(1.0 + error) * smallest:.2g}, but its value is not known."
         ),
         hint=Hint(
@@ -197,7 +198,7 @@ def _no_film_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     thin = int(np.count_nonzero(run.finest.film.h <= floor))
     return _failed(
         "asperity_contact",
-        f"{no_film(run.finest)}, on {nx} x {ny} nodes of which {thin} are below "
+        f"{no_film(run.finest)}, on {grid_size((nx, ny))} of which {thin} are below "
         f"H = {floor:.2g}. Asperities would touch there, which a film that carries the whole "
         "load does not describe.",
         LESS_ROUGH,
@@ -282,7 +283,7 @@ def _edge_status(run: FilmSolver) -> Status:
         ("sides_too_close", "side edge at Y", domain.y[0]),
         ("sides_too_close", "side edge at Y", domain.y[1]),
     )
-    for cause, name, place in edges:
+    for cause, name, place in edges[: 1 if run.finest.grid.ny == 1 else 3]:
         distance = abs(place)
         if distance < needed and ((distance - 1.0) / (needed - 1.0)) ** 0.29 < STARVED:
             return _failed(
@@ -316,7 +317,7 @@ def _oil_status(run: FilmSolver) -> Status:
         return CONVERGED
     return _failed(
         "oil_not_balanced",
-        f"The oil of the film does not balance on {level.grid.nx} x {level.grid.ny} nodes: "
+        f"The oil of the film does not balance on {grid_size(level.grid.points)}: "
         f"the mass-balance error is {percentage(missing)} of the inflow.",
         grid_hint(level.grid.points, run.hierarchy.scaled),
     )
@@ -327,13 +328,11 @@ def _error_status(run: FilmSolver) -> Status:
     errors, goal = run.errors(), run.goal
     if not goal.is_open or errors is None or goal.is_met(errors, run.minimum_part()):
         return CONVERGED
-    (nx, ny), reached = (
-        run.finest.grid.points,
-        max(errors.central, run.minimum_part() * errors.minimum),
-    )
+    nodes = grid_size(run.finest.grid.points)
+    reached = max(errors.central, run.minimum_part() * errors.minimum)
     return _failed(
         "error_not_reached",
-        f"The error bars on {nx} x {ny} nodes are {percentage(errors.central)} of the central and "
+        f"The error bars on {nodes} are {percentage(errors.central)} of the central and "
         f"{percentage(errors.minimum)} of the minimum film, above numerics.error = "
         f"{percentage(run.options.target)}: {goal.obstacle or 'the next grid does not converge'}.",
         Hint(settings=error_setting(reached)),

@@ -25,7 +25,7 @@ from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
 
 from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
-from tehl.operators.far_field import EdgeSlopes
+from tehl.operators.far_field import EdgeSlopes, FarField
 from tehl.operators.jacobian import Cavity, flux_difference, jacobian, rows
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import Newton
@@ -75,7 +75,7 @@ class FilmResponse:
         ones = np.ones(inner.size)
         found = self._coefficients(ones if stored is None else stored.ravel())
         self.outside = None
-        if far is not None:
+        if isinstance(far, FarField):
             self.outside = far.slopes(film.h, level.equations.gap)
             edge = (film.p > 0.0).ravel() & ~inner & (self.outside.by_film != 0.0).ravel()
             self.unknown = self.carries = self.unknown | edge

@@ -7,6 +7,7 @@ import numpy as np
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
+from tehl.base.wording import grid_size
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.transient import Transient
@@ -261,7 +262,7 @@ class Run:
             kind=error.cause,
             cause="step_not_settled",
             message=(
-                f"The time step to {seconds:.4g} s did not converge on {nx} x {ny} nodes: "
+                f"The time step to {seconds:.4g} s did not converge on {grid_size((nx, ny))}: "
                 f"the last change of P is {error.change:.2g}. The steps before it are kept."
             ),
             hint=hint,

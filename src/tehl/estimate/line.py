@@ -1,0 +1,79 @@
+"""Size of the domain and number of nodes of a line contact, proposed from its groups."""
+
+import math
+
+from tehl.contact.options import LINE_WIDTH, USUAL_PLAIN_ERROR, Domain
+from tehl.estimate.scaling import Groups
+
+LINE_ERROR = 0.002
+"""Relative error of a smooth steady film that is reached by default: some 40 ms."""
+LEAST_LINE_INLET, INLET_ERROR_PART = 3.4, 0.15
+"""Least distance of the inlet edge, in half-widths, and error by it over the error to reach."""
+OUTLET = 5.0 / 11.0
+"""Outlet over inlet: X = 0 is a node of every grid of 16 intervals or more."""
+FIELD, FIELD_POWER = 0.5, 5.0
+"""Error of the film by the far field on the inlet edge, at the distance where the undeformed gap is
+the film, and its power: twice what wider domains show for M = 1 to 50, L = 2 to 15 at 2 to 12 such
+distances."""
+ZERO = 2.0
+"""Error by zero pressure there, of power 3: one to two times what wider domains show."""
+LINE_BAR, FAMILIES = 0.06, tuple(2**k * n + 1 for k in range(5, 10) for n in (16, 20, 24, 28))
+"""Error of the film over M h^2, and numbers of nodes: on fewer a solve is hardly cheaper."""
+
+
+def line_domain(along: float, error: float) -> Domain:
+    """Return the domain for a film with a relative ``error``.
+
+    Parameters
+    ----------
+    along : float
+        Where the undeformed gap is the central film [half-widths].
+    error : float
+        Relative error of the film that is acceptable [-].
+    """
+    thick = along * (FIELD / (INLET_ERROR_PART * min(error, USUAL_PLAIN_ERROR))) ** (1.0 / FIELD_POWER)
+    inlet = math.ceil(10.0 * max(LEAST_LINE_INLET, thick)) / 10.0
+    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=LINE_WIDTH)
+
+
+def line_field_error(along: float, domain: Domain) -> float:
+    """Return the relative error of the film by the far field on the inlet edge.
+
+    Parameters
+    ----------
+    along : float
+        Where the undeformed gap is the central film [half-widths].
+    domain : Domain
+        Its inlet edge.
+    """
+    return float(FIELD * (-along / domain.x[0]) ** FIELD_POWER)
+
+
+def line_edge_error(along: float, domain: Domain) -> float:
+    """Return the relative error of the film by zero pressure on the inlet edge.
+
+    Parameters
+    ----------
+    along : float
+        Where the undeformed gap is the central film [half-widths].
+    domain : Domain
+        Its inlet edge.
+    """
+    return float(ZERO * (-along / domain.x[0]) ** 3)
+
+
+def line_points(groups: Groups, domain: Domain, error: float, least: float = 0.0) -> int:
+    """Return the nodes on which the error bars of the film will be below an error.
+
+    Parameters
+    ----------
+    groups, domain : Groups, Domain
+        The contact, and the domain of the solve.
+    error : float
+        Relative error of central and minimum film [-].
+    least : float
+        Nodes that must be exceeded, for waves of the surfaces.
+    """
+    width = domain.x[1] - domain.x[0]
+    bars = ((nodes, LINE_BAR * groups.M * (width / (nodes - 1)) ** 2) for nodes in FAMILIES)
+    return next((nodes for nodes, bar in bars if nodes > least and bar <= error), FAMILIES[-1])
