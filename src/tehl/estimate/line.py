@@ -31,7 +31,9 @@ def line_domain(along: float, error: float) -> Domain:
     error : float
         Relative error of the film that is acceptable [-].
     """
-    thick = along * (FIELD / (INLET_ERROR_PART * min(error, USUAL_PLAIN_ERROR))) ** (1.0 / FIELD_POWER)
+    thick = along * (FIELD / (INLET_ERROR_PART * min(error, USUAL_PLAIN_ERROR))) ** (
+        1.0 / FIELD_POWER
+    )
     inlet = math.ceil(10.0 * max(LEAST_LINE_INLET, thick)) / 10.0
     return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=LINE_WIDTH)
 
