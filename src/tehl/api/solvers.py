@@ -45,7 +45,8 @@ def _steady(solution: Solution) -> Result:
 
 
 def _transient(solution: TransientSolution) -> TransientResult:
-    return TransientResult.of(solution.but(start=with_stress(solution.start)))
+    start = with_stress(solution.start)
+    return TransientResult.of(solution if start is solution.start else solution.but(start=start))
 
 
 solve = _giving(_steady, solver.solve)
