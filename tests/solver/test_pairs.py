@@ -12,6 +12,7 @@ from tehl.api.results import Result
 from tehl.api.solvers import solve, solve_transient
 from tehl.contact.options import Options
 from tehl.operators.energy import FilmState
+from tehl.post.bodies import heat_into_bodies
 from tehl.post.boundary_contact import touching_nodes
 
 TIGHT = Options(points=65, accuracy="tight")
@@ -83,6 +84,9 @@ def test_the_heat_of_a_contact_is_its_friction(monkeypatch):
     cell = state.grid.dx * state.grid.dy * scales.half_width_x * scales.half_width_y
     assert found.touching.power_boundary > 0.05
     assert flux.sum() * cell == pytest.approx(found.touching.power_boundary, rel=1e-8)
+    into_film, into_bodies = found.heat.balance, sum(heat_into_bodies(found))
+    rubbed = into_bodies - into_film.surface_1 - into_film.surface_2
+    assert rubbed == pytest.approx(found.touching.power_boundary, rel=1e-9)
     meets, heated = touching_nodes(found), state.grid.unfold(state.view("shear").T.copy())
     assert meets.sum() > 50
     assert (heated[meets] == 0.0).all()  # the surfaces rub there in place of the oil

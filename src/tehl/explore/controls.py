@@ -106,6 +106,13 @@ def _is_heated(state: State, _: str) -> bool:
     return state.problem.thermal is not None
 
 
+def _has_stated_bodies(state: State, path: str) -> bool:
+    """Return whether the temperature of the body at this path is not computed."""
+    surface = getattr(state.problem, path.partition(".")[0])
+    stated = surface.thermal_resistance is None and surface.cooling is None
+    return stated and _is_heated(state, path)
+
+
 def _is_at_inlet(state: State, path: str) -> bool:
     """Return whether the oil depends on temperature, and that of the inlet stands at this path."""
     in_heat = state.case.get("thermal.temperature") is not None
@@ -230,8 +237,8 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
     ),
     "Heat": (
         choices.heat,
-        _inlet("surface_1.temperature", "bulk of body 1", when=_is_heated),
-        _inlet("surface_2.temperature", "bulk of body 2", when=_is_heated),
+        _inlet("surface_1.temperature", "bulk of body 1", when=_has_stated_bodies),
+        _inlet("surface_2.temperature", "bulk of body 2", when=_has_stated_bodies),
         _even(
             "lubricant.conductivity", "conductivity of the oil", "W/m/K", (0.05, 0.7), _is_heated
         ),

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from tehl.contact.heat import rubbing_parts
+from tehl.post.boundary_contact import touching
 from tehl.post.summits import load_sharing
 from tehl.result.solution import Solution
 
@@ -16,7 +17,7 @@ class Bodies:
     """Stated, or computed from the heat [K]."""
     heat_1: float
     heat_2: float
-    """Heat of film and asperities in the loaded zone into each body [W]."""
+    """Heat of film and touching solids in the loaded zone into each body [W]."""
     resistance_1: float | None
     resistance_2: float | None
     """Thermal resistances to the oil [K/W]; None where the temperature is stated."""
@@ -48,11 +49,11 @@ def bodies(result: Solution) -> Bodies | None:
 
 
 def heat_into_bodies(result: Solution) -> tuple[float, float]:
-    """Return the heat of film and asperities into each body [W]."""
+    """Return the heat of film, asperities and boundary contact into each body [W]."""
     assert result.heat is not None
     problem, balance = result.problem, result.heat.balance
-    shared = load_sharing(result)
-    rubbed = 0.0 if shared is None else shared.power_boundary
+    rubbing = (load_sharing(result), touching(result))
+    rubbed = sum(one.power_boundary for one in rubbing if one is not None)
     solids = (problem.surface_1.material, problem.surface_2.material)
     parts = rubbing_parts([one.conductivity or 0.0 for one in solids], problem.solid_peclet)
     return balance.surface_1 + parts[0] * rubbed, balance.surface_2 + parts[1] * rubbed
