@@ -102,8 +102,6 @@ def test_a_rigid_line_is_that_of_martin():
 @pytest.mark.parametrize(
     ("name", "table"),
     [
-        ("thermal", {"thermal": {}}),
-        ("supply", {"supply": {"ratio": 0.5}}),
         ("contact_film", {"contact_film": {"thickness": 5e-9}}),
         ("dynamics", {"dynamics": {}}),
     ],

@@ -280,22 +280,34 @@ def check_contact_film(problem: PointContact) -> None:
 
 
 def check_line(problem: PointContact) -> None:
-    """Check that a line contact is one of those that are computed."""
+    """Check that a line contact states nothing that lines do not have."""
+    if not problem.contact.is_line:
+        return
+    supply, thermal = problem.supply, problem.thermal
+    resting = thermal is not None and any(problem.motion.speed_of(one) == 0.0 for one in (1, 2))
     excluded = {
-        "thermal": problem.thermal is not None,
-        "lubricant.shear": not problem.lubricant.shear.is_newtonian,
-        "roughness": problem.is_rough,
-        "supply": problem.supply is not None,
-        "contact_film": problem.contact_film is not None,
-        "dynamics": problem.dynamics is not None,
+        "contact_film": (
+            problem.contact_film is not None,
+            "oil cannot flow round a place where the surfaces touch, so no film passes it; take "
+            "[asperities]",
+        ),
+        "dynamics": (
+            problem.dynamics is not None,
+            "two half-spaces under a line load approach each other without limit",
+        ),
+        "supply": (
+            supply is not None and (supply.profile is not None or supply.track is not None),
+            "no oil flows aside, so profile, track and passes have no effect; state layer or ratio",
+        ),
+        "thermal": (resting, "a surface at rest has no steady temperature under a line of heat"),
+        "cooling": (
+            problem.computes_bodies,
+            "its track has no width; state the temperature of the body",
+        ),
     }
-    for name, is_stated in excluded.items():
-        if problem.contact.is_line and is_stated:
-            raise ValueError(
-                f'contact.type = "line" and {name} exclude each other: line contacts are computed '
-                "with isothermal, Newtonian, flooded films of surfaces that are smooth on the "
-                f"mesh; leave out {name}, or take an ellipse with a large radius_y"
-            )
+    for name, (is_stated, why) in excluded.items():
+        if is_stated:
+            raise ValueError(f'contact.type = "line" and {name} exclude each other: {why}')
 
 
 def check_dynamics(problem: PointContact) -> None:

@@ -22,6 +22,10 @@ class Shape(Protocol):
         """Integral of the dry pressure over X and Y [-]."""
 
     @property
+    def area(self) -> float:
+        """Area of the dry contact over X and Y [-]."""
+
+    @property
     def across(self) -> float:
         """Curvature of the gap along Y, over that along X [-]."""
 
@@ -61,6 +65,7 @@ class Ellipse:
     """D = R_x/R_y."""
 
     load = 2.0 * math.pi / 3.0
+    area = math.pi
     speed_power = 0.75
 
     @property
@@ -172,6 +177,7 @@ class Line:
     """
 
     load = 0.5 * math.pi
+    area = 2.0
     speed_power = 0.5
     across = 0.0
 

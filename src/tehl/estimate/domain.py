@@ -11,6 +11,7 @@ from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film, moes_film_unit
 from tehl.estimate.line import (
     LINE_ERROR,
+    LINE_ROUGH_NODES,
     line_domain,
     line_edge_error,
     line_field_error,
@@ -255,6 +256,8 @@ def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> float:
     waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
     along = (domain.x[1] - domain.x[0]) * scales.half_width_x / min(wave[0] for wave in waves)
     across = (domain.y[1] - domain.y[0]) * scales.half_width_y / min(wave[1] for wave in waves)
+    if problem.contact.is_line:
+        return min(WAVE_NODES * along, LINE_ROUGH_NODES)
     return min(WAVE_NODES * max(along, across), ROUGH_NODES)
 
 

@@ -2,11 +2,15 @@
 
 import math
 
+from tehl.base.typing import np
 from tehl.contact.options import LINE_WIDTH, USUAL_PLAIN_ERROR, Domain
+from tehl.contact.shape import LINE
 from tehl.estimate.scaling import Groups
 
 LINE_ERROR = 0.002
 """Relative error of a smooth steady film that is reached by default: some 40 ms."""
+LINE_ROUGH_NODES = 8192
+"""Most nodes because of waves of the surfaces."""
 LEAST_LINE_INLET, INLET_ERROR_PART = 3.4, 0.15
 """Least distance of the inlet edge, in half-widths, and error by it over the error to reach."""
 OUTLET = 5.0 / 11.0
@@ -15,6 +19,8 @@ FIELD, FIELD_POWER = 0.5, 5.0
 """Error of the film by the far field on the inlet edge, at the distance where the undeformed gap is
 the film, and its power: twice what wider domains show for M = 1 to 50, L = 2 to 15 at 2 to 12 such
 distances."""
+MENISCUS_GAP, LARGEST_SUPPLY = 4.0, 0.995
+"""Gap that holds the meniscus, over the film and 1 - r, and largest r for which it does."""
 ZERO = 2.0
 """Error by zero pressure there, of power 3: one to two times what wider domains show."""
 LINE_BAR, FAMILIES = 0.06, tuple(2**k * n + 1 for k in range(5, 10) for n in (16, 20, 24, 28))
@@ -35,6 +41,27 @@ def line_domain(along: float, error: float) -> Domain:
         1.0 / FIELD_POWER
     )
     inlet = math.ceil(10.0 * max(LEAST_LINE_INLET, thick)) / 10.0
+    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=LINE_WIDTH)
+
+
+def line_supplied_domain(ratio: float, film: float) -> Domain:
+    """Return a domain that contains the film of a starved contact.
+
+    In the oil of a rigid cylinder the gap at the meniscus is the film times 1 + 2.3/(1 - r); here
+    it is the gap of the dry contact that is wide enough.
+
+    Parameters
+    ----------
+    ratio : float
+        Oil that enters over what the flooded contact passes on, below one [-].
+    film : float
+        Central film to expect [-].
+    """
+    gap = MENISCUS_GAP * film / max(1.0 - ratio, 1.0 - LARGEST_SUPPLY)
+    inlet = LEAST_LINE_INLET
+    while float(LINE.dry_gap(np.array(inlet), np.array(0.0))) < gap:
+        inlet *= 1.05
+    inlet = math.ceil(10.0 * inlet) / 10.0
     return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=LINE_WIDTH)
 
 

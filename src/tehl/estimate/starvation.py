@@ -24,7 +24,9 @@ import numpy as np
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.options import Domain
+from tehl.contact.shape import LINE
 from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.line import line_supplied_domain
 from tehl.estimate.scaling import Groups, ScaledProblem
 
 GAMMA = 3.0
@@ -33,6 +35,9 @@ FLOODED_SUPPLY, FLOODED_THIN_FILM, FLOODED_ERROR = 50.0, 0.5, 0.002
 """Supply over that of the flooded contact from which a thin film, H up to `FLOODED_THIN_FILM`, is
 flooded, and its error: half of the 0.4 % that it lacks at r = 20 (M = 20 and 50). A thick one is
 4 % from flooded at r = 60 and M = 5, and 22 % at M = 2."""
+LINE_FLOODED = 0.995
+"""Supply of a line contact, over what it passes on flooded, from which it is flooded: the meniscus
+of one that is starved lies at a distance of 1.5/sqrt(1 - r), which has no limit."""
 MENISCUS_GAP_MARGIN, MENISCUS_GAP_SLOPE, LARGEST_SLOPE_SUPPLY = 1.2, 0.4, 3.0
 """Margin on the gap at the meniscus, more of it per r up to r = 3: near the contact the pressure
 returns more oil than far upstream."""
@@ -109,6 +114,8 @@ def entering_oil(scaled: ScaledProblem) -> EnteringOil | None:
         y, oil = places / scaled.scales.half_width_y, layers * unit
     found = EnteringOil(y=y, oil=oil)
     flooded = flooded_oil(scaled)
+    if scaled.groups.shape is LINE:
+        return None if float(oil.min()) > LINE_FLOODED * flooded else found
     is_flooded = flooded <= FLOODED_THIN_FILM and float(oil.min()) > FLOODED_SUPPLY * flooded
     return None if is_flooded else found
 
@@ -147,6 +154,8 @@ def starved_degree(groups: Groups, ratio: float) -> tuple[float, float | None]:
     ratio : float
         r, the oil that enters over that of the flooded contact [-].
     """
+    if groups.shape is LINE:  # nothing flows aside: what enters is what passes
+        return min(ratio, 1.0), None
     law, axes, factors, errors = starved_part(ratio), *table()
     place = np.log(groups.M), groups.L, np.log(max(ratio, 1e-9))
     inside = all(axis[0] <= at <= axis[-1] for axis, at in zip(axes, place, strict=True))
@@ -178,7 +187,7 @@ def supply_error(scaled: ScaledProblem) -> float:
     """
     supply = scaled.problem.supply
     if supply is not None and not is_starved(scaled):
-        return FLOODED_ERROR
+        return 0.0 if scaled.groups.shape is LINE else FLOODED_ERROR
     if supply is None or supply.ratio is None:
         return 0.0
     return scaled.flooded_error / (1.0 + supply.ratio**2)
@@ -190,7 +199,8 @@ def supplied_film(scaled: ScaledProblem) -> float:
     oil = entering_oil(scaled)
     if oil is None:
         return flooded
-    return flooded * starved_part(max(oil.largest / flooded_oil(scaled), 1e-6))
+    ratio = max(oil.largest / flooded_oil(scaled), 1e-6)
+    return flooded * (min(ratio, 1.0) if scaled.groups.shape is LINE else starved_part(ratio))
 
 
 def starved_domain(scaled: ScaledProblem) -> Domain:
@@ -198,6 +208,8 @@ def starved_domain(scaled: ScaledProblem) -> Domain:
     oil, groups = entering_oil(scaled), scaled.groups
     assert oil is not None
     across = groups.shape.across
+    if groups.shape is LINE:
+        return line_supplied_domain(oil.largest / flooded_oil(scaled), supplied_film(scaled))
     # far upstream the pressure returns 3/(3 + 2 D) of the oil that the surfaces drag in
     backflow = 1.5 / groups.radius_ratio + 1.0
     margin = MENISCUS_GAP_MARGIN + MENISCUS_GAP_SLOPE * min(

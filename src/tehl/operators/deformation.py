@@ -68,7 +68,7 @@ class FftDeformation:
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
         self.mirror = grid.mirror
-        self.period = (2 * (grid.ny - 1), 2 * (grid.nx - 1))
+        self.period = (2 * (grid.ny - 1) or 1, 2 * (grid.nx - 1))
         # the kernel is even: offset n - k equals offset -k
         rows, columns = (np.minimum(np.arange(n), n - np.arange(n)) for n in self.period)
         table = influence_of(grid, groups).table(grid.ny, grid.nx)
@@ -109,7 +109,8 @@ class FftFlattening(FftDeformation):
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
         super().__init__(grid, groups)
-        self.spectrum = 1.0 / np.maximum(self.spectrum, self.LEAST * self.spectrum.max())
+        size = np.abs(self.spectrum)  # of a line contact that of the mean may be negative
+        self.spectrum = 1.0 / np.maximum(size, self.LEAST * size.max())
 
 
 class LineDeformation:

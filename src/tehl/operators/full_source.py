@@ -9,6 +9,7 @@ The line source of `tehl.operators.line_source` is its limit for high solid Pecl
 """
 
 import numpy as np
+from scipy.special import k0e, k1e
 
 from tehl.base.typing import Array, IntArray
 from tehl.operators.influence import Influence
@@ -50,11 +51,12 @@ class FullSource:
         stored, nx = shape
         ny = 2 * stored - 1 if mirror else stored
         self.mirror, self.shape = mirror, (ny, nx)
-        self.period = (2 * (ny - 1), 2 * (nx - 1))
+        self.period = (2 * (ny - 1) or 1, 2 * (nx - 1))
         rows = np.arange(ny)
         columns = np.arange(2 * (nx - 1))
         columns = np.where(columns < nx, columns, columns - 2 * (nx - 1))
-        table = factor * _point_source(rows, columns, cell, peclet)
+        source = _row_source if np.isinf(cell[0]) else _point_source
+        table = factor * source(rows, columns, cell, peclet)
         if line > 0.0:
             table[0] -= line * _line_cells(columns, cell[1])
         folded = np.minimum(np.arange(self.period[0]), self.period[0] - np.arange(self.period[0]))
@@ -95,6 +97,28 @@ def _point_source(
     )
     table[np.ix_(near_rows, near_columns)] = near
     return table
+
+
+def _row_source(
+    rows: IntArray, columns: IntArray, cell: tuple[float, float], peclet: float
+) -> Array:
+    """Return the integral of the same over all y and over the cells of a row, (1, columns).
+
+    2 exp(B x) K_0(|B x|), whose antiderivatives are z e^z (K_0 + K_1) and z e^-z (K_0 - K_1) with
+    z = |B x|. A surface at rest has no steady temperature.
+    """
+    del rows
+    sign = np.sign(peclet)
+    ends = sign * np.float64(cell[1]) * (columns - 0.5)
+
+    def part(x: Array) -> Array:
+        z = np.abs(peclet * x)
+        behind = z * (k0e(z) + k1e(z)) - 1.0
+        ahead = -z * np.exp(-2.0 * z) * (k0e(z) - k1e(z)) - 1.0
+        return np.where(x > 0.0, behind, ahead)
+
+    found = part(ends + sign * cell[1]) - part(ends)
+    return 2.0 * np.abs(found)[None, :] / abs(peclet)
 
 
 def _plume(x: Array, y: Array, peclet: float) -> Array:

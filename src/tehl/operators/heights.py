@@ -13,7 +13,7 @@ from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.estimate.duration import components
 from tehl.estimate.grid import Grid
-from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.scaling import ScaledProblem, Scales
 from tehl.roughness import Roughness, Sum, Superposition
 from tehl.roughness.model import RoughnessModel
 from tehl.roughness.superposition import OneRoughness
@@ -109,7 +109,7 @@ def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
     problem, scales = scaled.problem, scaled.scales
     if not problem.is_rough:
         return None
-    width, length = scales.half_width_x, scales.half_width_y
+    width, length = units_of(grid, scales)
     x, y = grid.x[None, :] * width, grid.y[:, None] * length
     values, waves = [], []
     parts: list[Roughness] = []
@@ -127,6 +127,20 @@ def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
     shortest = shortest_of_formulas(parts)
     check_nodes(min(shortest[0] / (grid.dx * width), shortest[1] / (grid.dy * length)))
     return heights
+
+
+def units_of(grid: Grid, scales: Scales) -> tuple[float, float]:
+    """Return the units of X and Y for heights [m].
+
+    A line contact has the heights at y = 0, of which its mesh carries what it carries along x.
+
+    Parameters
+    ----------
+    grid, scales : Grid, Scales
+        Nodes, and half-widths [m].
+    """
+    along = scales.half_width_x
+    return along, grid.dx * along / grid.dy if grid.ny == 1 else scales.half_width_y
 
 
 def shortest_of_formulas(parts: Iterable[Roughness]) -> tuple[float, float]:
@@ -197,7 +211,7 @@ class MovingHeights:
 
     def __init__(self, scaled: ScaledProblem, grid: Grid, entrance: float | None) -> None:
         problem, scales = scaled.problem, scaled.scales
-        width, length = scales.half_width_x, scales.half_width_y
+        width, length = units_of(grid, scales)
         self.x, self.y = grid.x[None, :] * width, grid.y[:, None] * length
         self.widths = (width, length)
         self.shape, self.unit = grid.shape, scales.film_thickness

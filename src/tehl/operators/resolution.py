@@ -87,6 +87,8 @@ def sample_of(roughness: AnyRoughness, problem: ContactProblem) -> Sample:
         Its Hertz half-widths bound the sample [m].
     """
     half = (problem.hertz.half_width_x, problem.hertz.half_width_y)
+    if problem.contact.is_line:  # its heights are those at y = 0
+        half = half[0], 1e-6 * half[0]
     shifts = np.random.default_rng(0).random((2, _SAMPLES_PER_AXIS))
     x, y = (
         width * (2.0 * (np.arange(_SAMPLES_PER_AXIS) + shift) / _SAMPLES_PER_AXIS - 1.0)

@@ -98,7 +98,7 @@ PICTURES: Pictures = {
 """Pictures of every steady result."""
 OF_A_LINE = (
     *("centre_lines", "rough_centre_line", "film_distribution", "temperature_section"),
-    *("stress", "residuals"),
+    *("stress", "residuals", "history", "space_time", "moments"),
 )
 """Pictures of a line contact: curves along x and sections."""
 INTERFEROGRAMS: Pictures = {
@@ -119,14 +119,28 @@ def pictures_of(result: Solution | TransientSolution, smooth: Solution | None = 
         Smooth reference run on the same grid, for pictures of ripples.
     """
     if isinstance(result, TransientSolution):
-        moving: Pictures = {
-            "history": history,
-            "space_time": space_time,
-            "moments": moments,
-            "passage": passage,
-        }
-        has_stress = result.start.problem.stress is not None and result.frames.step.size
-        return moving | ({"moving_stress": moving_section} if has_stress else {})
+        found, problem = _of_motion(result), result.start.problem
+    else:
+        found, problem = _of_film(result, smooth), result.problem
+    if problem.contact.is_line:
+        return {name: draw for name, draw in found.items() if name in OF_A_LINE}
+    return found
+
+
+def _of_motion(result: TransientSolution) -> Pictures:
+    """Return the functions that draw a transient result, by name."""
+    moving: Pictures = {
+        "history": history,
+        "space_time": space_time,
+        "moments": moments,
+        "passage": passage,
+    }
+    has_stress = result.start.problem.stress is not None and result.frames.step.size
+    return moving | ({"moving_stress": moving_section} if has_stress else {})
+
+
+def _of_film(result: Solution, smooth: Solution | None) -> Pictures:
+    """Return the functions that draw a steady result, by name."""
     found = dict(PICTURES)
     found |= _of_oil(result)
     if rough_film(result) is not None:
@@ -145,8 +159,6 @@ def pictures_of(result: Solution | TransientSolution, smooth: Solution | None = 
     solids = (result.problem.surface_1.material, result.problem.surface_2.material)
     if any(solid.transparent for solid in solids):
         found |= INTERFEROGRAMS
-    if result.problem.contact.is_line:
-        return {name: draw for name, draw in found.items() if name in OF_A_LINE}
     return found
 
 

@@ -196,7 +196,7 @@ def window(result: Solution) -> tuple[Span, Span]:
     Slender contacts have less room at their tips and more beside them, so that the map does not
     become a thin strip.
     """
-    ratio = result.groups.ellipticity
+    ratio = 1.0 if result.problem.contact.is_line else result.groups.ellipticity
     spans = []
     for span, axis, slender in zip(
         WINDOW, (result.scaled.x, result.scaled.y), (1.0 / ratio, ratio), strict=True

@@ -93,7 +93,8 @@ def _pumped_in(result: Solution, heat: FilmHeat) -> float:
     """
     x, y, film, pressure = result.x, result.y, result.film_thickness, result.pressure
     outside = under_pressure(result) * (1.0 - zone_part(result.scaled.x, result.scaled.y))
-    along, across = np.gradient(pressure, x, axis=1), np.gradient(pressure, y, axis=0)
+    along = np.gradient(pressure, x, axis=1)
+    across = np.gradient(pressure, y, axis=0) if y.size > 1 else 0.0 * along
     eta = result.problem.lubricant.viscosity.viscosity(pressure, mean_temperature(heat))
     carried = result.problem.motion.entrainment_speed * film * along
     spent = film**3 / (12.0 * eta) * (along**2 + across**2)

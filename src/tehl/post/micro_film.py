@@ -120,12 +120,16 @@ def typical_wavelength(result: Solution) -> float:
     longest = result.scales.half_width_x
     if result.heights is None:
         return longest
-    found = statistics(result.heights.together[square(result)], _pixel(result))
+    heights = result.heights.together[square(result)]
+    if len(heights) == 1:  # the same on all lines
+        heights = np.repeat(heights, 3, axis=0)
+    found = statistics(heights, _pixel(result))
     return min(2.0 * math.pi * found.sq / found.sdq, longest) if found.sdq > 0 else longest
 
 
 def _pixel(result: Solution) -> tuple[float, float]:
-    return float(np.diff(result.x[:2])[0]), float(np.diff(result.y[:2])[0])
+    along = float(np.diff(result.x[:2])[0])
+    return along, float(np.diff(result.y[:2])[0]) if result.y.size > 1 else along
 
 
 def roughness_effect(rough: Solution, smooth: Solution) -> RoughnessEffect:

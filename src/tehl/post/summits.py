@@ -1,6 +1,5 @@
 """Load and friction shared by film and asperities that are finer than the grid."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,7 +61,7 @@ def load_sharing(result: Solution) -> LoadSharing | None:
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
     share = float((cells * found.pressure).sum()) / result.load
     share = share if share > NEGLIGIBLE_SHARE else 0.0
-    hertz = math.pi * scales.half_width_x * scales.half_width_y
+    hertz = result.groups.shape.area * scales.half_width_x * scales.half_width_y
     area = float((cells * real_area(result, found)).sum())
     bar = None if result.errors is None else result.errors.at("load_sharing.share")
     motion = result.problem.motion

@@ -305,7 +305,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         lambda rolling: rolling.moment,
         name="rolling",
         certified="following",
-        words={"axis": "rolling moment of one metre [N m]"},
+        words={"axis": "rolling moment of one metre"},
     ),
     Quantity("rolling.force_n", lambda rolling: rolling.force, name="rolling"),
     *_plain("rolling", "shift_m tail_share closure_error T"),

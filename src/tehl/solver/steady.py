@@ -20,7 +20,7 @@ from tehl.estimate.memory import check_memory
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import Flooded, check_supply
 from tehl.kernels.warmup import warm_up
-from tehl.operators.heights import heights_of
+from tehl.operators.heights import heights_of, units_of
 from tehl.operators.resolution import resolution_of
 from tehl.result.fields import SurfaceHeights
 from tehl.result.solution import (
@@ -373,7 +373,7 @@ def _result(
         heights=_surfaces(run),
         resolution=resolution_of(
             scaled.problem,
-            (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y),
+            (grid.dx * scaled.scales.half_width_x, grid.dy * units_of(grid, scaled.scales)[1]),
         ),
     )
 

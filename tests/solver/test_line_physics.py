@@ -1,0 +1,164 @@
+"""Line contacts with heat, thinning, scarce oil, asperities, waves and loads that change."""
+
+import math
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+import tehl
+from tehl.contact.options import Options
+from tests.solver.test_line import BOX, CITED, line
+
+STEEL = {"young_modulus": 2.0566e11, "poisson_ratio": 0.3} | {
+    "density": 7850.0,
+    "heat_capacity": 470.0,
+    "conductivity": 46.0,
+}
+OIL = {
+    "viscosity": {"law": "roelands", "eta_0": 0.04, "alpha": 22e-9, "gamma": 0.042}
+    | {"reference_temperature": 313.0},
+    "density": {"law": "dowson-higginson", "rho_0": 890.0, "beta": 6.5e-4, "form": "additive"},
+    "conductivity": 0.14,
+    "heat_capacity": 2000.0,
+}
+
+
+def hot(sliding: float, sources: str = "line") -> tehl.ContactProblem:
+    """Return a heated line contact of 0.8 GPa."""
+    tables = {
+        "contact": {"type": "line", "radius": 0.02, "hertz_pressure": 8e8, "entrainment_speed": 1.5}
+        | {"slide_roll_ratio": sliding},
+        "surface_1": {"material": STEEL},
+        "surface_2": {"material": STEEL},
+        "lubricant": OIL,
+        "thermal": {"temperature": 313.0, "sources": sources, "layers": 13},
+    }
+    return tehl.ContactProblem.model_validate(tables)
+
+
+def test_heat_is_that_of_another_program():
+    found, cited = tehl.solve(hot(0.5), Options(points=513, domain=BOX)), CITED["heated"]
+    summary = found.summary()
+    assert found.film_scaled.central == pytest.approx(cited["h_central"], rel=1e-3)
+    assert found.film_scaled.minimum == pytest.approx(cited["h_minimum"], rel=1e-3)
+    rise = summary["temperature"]["mid_film_rise_central_k"]
+    assert rise == pytest.approx(cited["mid_film_rise"], rel=3e-4)
+    traction = summary["traction"]["mid_film"]
+    assert traction == pytest.approx(cited["mid_film_traction"], rel=1e-3)
+    assert abs(summary["convergence"]["heat_balance_error"]) < 2e-3
+    assert abs(summary["convergence"]["work_balance_error"]) < 4e-3  # falls with the mesh
+
+
+def test_the_full_source_is_near_that_of_a_line_at_high_speed():
+    rises = {}
+    for sources in ("line", "full"):
+        options = Options(points=513, domain=BOX)
+        rises[sources] = tehl.solve(hot(0.5, sources), options).summary()["temperature"]
+    # solid Peclet numbers of 14 and 20
+    for name in ("surface_1_rise_max_k", "surface_2_rise_max_k"):
+        assert rises["full"][name] == pytest.approx(rises["line"][name], rel=0.05)
+
+
+def test_what_enters_a_starved_line_is_what_passes():
+    for ratio in (0.3, 0.9):
+        found = tehl.solve(line(20.0, 8.0, supply={"ratio": ratio}))
+        starved = found.summary()["starvation"]
+        assert starved["degree"] == pytest.approx(ratio, rel=1e-3)  # exact: no oil flows aside
+        assert starved["meniscus_m"] < 0.0
+    flooded = tehl.solve(line(20.0, 8.0)).film_scaled
+    for tables in ({"supply": {"ratio": 2.0}}, {"cavitation": {"model": "conserving"}}):
+        same = tehl.solve(line(20.0, 8.0, **tables)).film_scaled
+        assert same.central == pytest.approx(flooded.central, rel=1e-3)
+
+
+def films(stress: str, sliding: float) -> tehl.Result:
+    """Return the film of an Eyring oil that slides."""
+    oil = OIL | {"shear": {"law": "eyring", "stress": stress}}
+    return tehl.solve(line(20.0, 8.0, lubricant=oil, contact={"slide_roll_ratio": sliding}))
+
+
+def test_thinning_has_its_limits():
+    newtonian = tehl.solve(line(20.0, 8.0, lubricant=OIL)).film_scaled.central
+    assert films("1e12 Pa", 1.0).film_scaled.central == pytest.approx(newtonian, rel=1e-4)
+    thin = films("1 MPa", 1.0)
+    assert thin.film_scaled.central == pytest.approx(0.977 * newtonian, rel=2e-3)
+    assert abs(thin.summary()["traction"]["mid_film"]) < 0.02
+
+
+def test_summits_far_apart_carry_nothing():
+    rough = {"material": "steel", "rms_roughness": "5 nm"}
+    summits = {"model": "greenwood-tripp", "summit_radius": "20 um", "summit_density": "3e10 1/m^2"}
+    tables = {"surface_1": rough, "surface_2": rough, "asperities": summits}
+    found = tehl.solve(line(20.0, 8.0, **tables))
+    assert found.summary()["load_sharing"]["share"] < 1e-6  # lambda is 30
+    smooth = tehl.solve(line(20.0, 8.0)).film_scaled.central
+    assert found.film_scaled.central == pytest.approx(smooth, rel=1e-3)
+
+
+def test_a_wave_passes_with_the_amplitude_of_theory():
+    still = line(20.0, 10.0)
+    width = still.hertz.half_width_x
+    seconds, unit = width / still.entrainment_speed, width**2 / still.radius_x
+    wave = {"type": "wave", "amplitude": 2e-3 * unit, "wavelength": 0.5 * width}
+    rough = {"material": "steel", "roughness": wave}
+    moving = line(20.0, 10.0, surface_1=rough, transient={"duration": 6.0 * seconds})
+    run = tehl.solve_transient(moving, Options(points=513, domain=BOX))
+    late = run.history.time > 4.5 * seconds
+    film = run.history.film_central[late] / unit
+    assert 0.5 * np.ptp(film) / 2e-3 == pytest.approx(CITED["wave"]["ratio"], rel=0.01)
+
+
+def test_a_load_that_changes_squeezes_the_film():
+    still = line(20.0, 10.0)
+    width = still.hertz.half_width_x
+    seconds, unit = width / still.entrainment_speed, width**2 / still.radius_x
+    load = [[0.05 * k * seconds, 1.0 + 0.3 * math.sin(0.05 * k)] for k in range(180)]
+    problem = line(20.0, 10.0, transient={"duration": 8.0 * seconds, "load": load})
+    films = {}
+    for points in (257, 513):
+        run = tehl.solve_transient(problem, Options(points=points, domain=BOX))
+        time, film = run.history.time / seconds, run.history.film_central / unit
+        films[points] = np.interp([one for one, _ in CITED["load"]["films"]], time, film)
+    cited = [film for _, film in CITED["load"]["films"]]
+    assert films[513] == pytest.approx(cited, rel=6e-3)
+    limit = films[513] + (films[513] - films[257]) / 3.0
+    assert limit == pytest.approx(cited, rel=1.5e-3)  # of second order
+
+
+def test_a_certified_line_has_bars():
+    from tehl.api.solvers import certify  # noqa: PLC0415 (beside the only use)
+
+    found = certify(line(20.0, 8.0), Options(points=257))
+    bar = found.certified["film_central"]
+    finer = tehl.solve(line(20.0, 8.0), Options(points=2049)).film.central
+    assert abs(bar.value - finer) < bar.uncertainty + 1e-4 * finer
+
+
+@pytest.mark.parametrize(
+    ("tables", "why"),
+    [
+        ({"contact_film": {"thickness": "5 nm"}}, "oil cannot flow round"),
+        ({"supply": {"layer": "0.2 um", "track": "0.2 m"}}, "no oil flows aside"),
+        ({"dynamics": {}}, "approach each other without limit"),
+    ],
+)
+def test_what_lines_do_not_have_is_refused(tables, why):
+    with pytest.raises(ValidationError, match=why):
+        line(20.0, 8.0, **tables)
+    with pytest.raises(ValidationError, match="surface at rest"):
+        hot(2.0)
+
+
+def test_pictures_show_a_heated_rough_line(tmp_path):
+    problem = hot(0.3)
+    wave = {"type": "wave", "amplitude": "0.01 um", "wavelength": "0.2 mm"}
+    rough = problem.model_dump(exclude_none=True)
+    rough["surface_2"]["roughness"] = wave
+    found = tehl.solve(tehl.ContactProblem.model_validate(rough), Options(points=257, domain=BOX))
+    pictures = tehl.plots.pictures_of(found)
+    assert "film" not in pictures
+    paths = tehl.plots.save_all(found, tmp_path, dpi=30)
+    assert {path.stem for path in paths} == set(pictures)
+    assert {"centre_lines", "rough_centre_line", "temperature_section"} < set(pictures)
+    assert "rolling" in found.summary()
