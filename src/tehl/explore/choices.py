@@ -76,8 +76,10 @@ def _one_of(state: State, label: str, values: dict[str, tuple[str, Any]]) -> Cho
 def load(state: State) -> Choice:
     """Return the choice of how the load is stated."""
     problem = state.problem
-    loads = {
-        "load": ("load", f"{problem.load:.5g} N"),
+    by_length = ("load per length", f"{1e-3 * problem.load:.5g} N/mm")
+    force = ("load", f"{problem.load:.5g} N")
+    loads = {"load_per_length": by_length} if problem.contact.is_line else {"load": force}
+    loads |= {
         "hertz_pressure": ("Hertz pressure", f"{problem.hertz.pressure * 1e-9:.5g} GPa"),
         "moes_load": ("Moes M", float(f"{state.scaled.groups.M:.5g}")),
     }

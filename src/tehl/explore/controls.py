@@ -192,6 +192,7 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
     "Load and speed": (
         choices.load,
         Row("contact.load", "load", "N;kN", (0.1, 1e5)),
+        Row("contact.load_per_length", "load per length", "N/mm;kN/m", (1e3, 1e6)),
         Row("contact.hertz_pressure", "Hertz pressure", "GPa;MPa", "Hertz pressure"),
         Row("contact.moes_load", "Moes M", "", "Moes M"),
         choices.speed,
