@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from tehl.contact.point_contact import Contact, Surface
     from tehl.lubricant import Lubricant, oil
     from tehl.studies import solve_contacts, study
+    from tehl.studies.fitting.oil import OilFit, fit
 
 __all__ = [
     "SOLVER_VERSION",
@@ -34,6 +35,7 @@ __all__ = [
     "FileFormatError",
     "InputError",
     "Lubricant",
+    "OilFit",
     "Options",
     "Result",
     "Solid",
@@ -43,6 +45,7 @@ __all__ = [
     "__version__",
     "certify",
     "certify_transient",
+    "fit",
     "load",
     "material",
     "oil",
@@ -72,6 +75,7 @@ _HOMES = {
         "tehl.contact.point_contact": ("Contact", "Surface"),
         "tehl.lubricant": ("Lubricant", "oil"),
         "tehl.studies": ("solve_contacts", "study"),
+        "tehl.studies.fitting.oil": ("OilFit", "fit"),
     }.items()
     for name in names
 }

@@ -236,3 +236,13 @@ def test_a_bearing_list_has_its_films():
     assert inner["Hertz pressure [GPa]"] > outer["Hertz pressure [GPa]"] > 0.5
     assert inner["central film [nm]"] < outer["central film [nm]"]
     assert inner["± central film [nm]"] < 0.02 * inner["central film [nm]"]
+
+
+def test_the_oil_of_a_test_is_found_within_its_intervals():
+    found = example("oil_from_a_test").main()
+    alpha, stress = found["alpha"], found["eyring_stress"]
+    assert alpha.low < 22e-9 < alpha.high < 1.15 * alpha.low
+    assert stress.low < 5e6 < stress.high < 1.5 * stress.low
+    assert found.noise["film"] == pytest.approx(0.03, rel=0.6)
+    assert found.lubricant.shear.stress == pytest.approx(stress.value, rel=1e-3)
+    assert alpha.value == pytest.approx(21.8e-9, rel=5e-3)

@@ -14,7 +14,7 @@ from tehl.cli import application
 from tehl.studies import Store
 from tehl.studies.answers import answers, values_of
 from tehl.studies.case import Case
-from tehl.studies.contacts import _column, _tables_of, read_contacts
+from tehl.studies.contacts import _column, read_contacts, tables_of
 
 COARSE = """
 [contact]
@@ -94,14 +94,14 @@ def test_spreadsheets_of_all_countries_give_the_same_contacts(tmp_path, template
 
 def test_a_row_that_states_another_key_removes_that_of_the_template(template):
     base = read_case_tables(template)
-    tables = _tables_of(base, {"contact.hertz_pressure": "1 GPa", "contact.radius_x": "5 mm"})
+    tables = tables_of(base, {"contact.hertz_pressure": "1 GPa", "contact.radius_x": "5 mm"})
     assert tables["contact"] == {
         "entrainment_speed": "1 m/s",
         "hertz_pressure": "1 GPa",
         "radius_x": "5 mm",
     }
     assert base["contact"]["load"] == "20 N"
-    tables = _tables_of(base, {"lubricant.oil": "iso-vg-68", "surface_1.radius": "4 mm"})
+    tables = tables_of(base, {"lubricant.oil": "iso-vg-68", "surface_1.radius": "4 mm"})
     assert tables["lubricant"] == {"oil": "iso-vg-68"}
     assert tables["surface_1"] == {"material": "steel", "radius": "4 mm"}
 

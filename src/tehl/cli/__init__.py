@@ -16,6 +16,7 @@ COMMANDS = {
     "layer": "layer",
     "study": "study",
     "contacts": "contacts",
+    "fit": "fit",
     "plot": "results",
     "animate": "results",
     "export": "results",

@@ -187,8 +187,19 @@ def oil(name: str) -> Lubricant:
 
 
 def _by_name(value: object, info: ValidationInfo) -> object:
-    """Return the table of a named oil, with what the case adds; others as they are."""
-    folder = folder_of(info)
+    return oil_table(value, folder_of(info))
+
+
+def oil_table(value: object, folder: Path | None) -> Any:
+    """Return the table of a named oil, with what the case adds; others as they are.
+
+    Parameters
+    ----------
+    value : str, Mapping or Lubricant
+        As a case states it.
+    folder : Path or None
+        Of the case, where an own library may be.
+    """
     if isinstance(value, str | Mapping | Lubricant):
         alone = isinstance(value, Mapping) and not {OILS.key, *_LAWS} & set(value)
         return OILS.stated(value, folder, "name" if alone else OILS.key)

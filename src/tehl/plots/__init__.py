@@ -16,6 +16,7 @@ from tehl.base.errors import InputError
 from tehl.plots.animation import animate
 from tehl.plots.convergence import residual_history
 from tehl.plots.dynamics import dynamics_curves
+from tehl.plots.fit import oil_fit
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
 from tehl.plots.maps import (
@@ -66,6 +67,7 @@ __all__ = [
     "moes_map",
     "moments",
     "moving_section",
+    "oil_fit",
     "oil_map",
     "pass_history",
     "passage",

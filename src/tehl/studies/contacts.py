@@ -20,7 +20,7 @@ from tehl.base.lists import check_package, lines_of_sheet, numbered_lines, strip
 from tehl.base.mistakes import key_paths
 from tehl.base.units import is_unit
 from tehl.contact.options import Options
-from tehl.io.case import from_name, plain_value, toml_tables
+from tehl.io.case import from_name, plain_value, tables_of_text, toml_tables
 from tehl.io.templates import template_text
 from tehl.studies.case import Case
 
@@ -33,7 +33,7 @@ TEMPLATE = "ball-on-disc"
 ROW_SECONDS = 60.0
 """Time after which no finer grid is started for a contact, if it states none."""
 _WORDS = {
-    "contact.load": "load force normal_load normal_force w q f_n",
+    "contact.load": "load force normal_load normal_force ball_load w q f_n",
     "contact.hertz_pressure": "p_h ph p_hertz p0 p_0 hertz_pressure hertzian_pressure",
     "contact.entrainment_speed": "u_m u speed entrainment_speed entrainment mean_speed "
     "entraining_speed rolling_speed",
@@ -41,7 +41,7 @@ _WORDS = {
     "contact.radius": "radius r reduced_radius",
     "contact.radius_x": "r_x rx radius_x reduced_radius_x",
     "contact.radius_y": "r_y ry radius_y reduced_radius_y",
-    "lubricant.temperature": "temperature oil_temperature inlet_temperature t_oil t",
+    "lubricant.temperature": "temperature oil_temperature inlet_temperature lube_temp t_oil t",
     "lubricant.oil": "oil lubricant",
     "lubricant.viscosity.nu_40": "nu_40 nu40 kv40 kv_40 viscosity_40",
     "lubricant.viscosity.nu_100": "nu_100 nu100 kv100 kv_100 viscosity_100",
@@ -64,6 +64,7 @@ _WORDS = {
         "thermal_resistance": "thermal_resistance r_th rth",
     }.items()
 }
+NO_WORDS: Mapping[str, str] = {}
 _KEYS = {word: key for key, words in _WORDS.items() for word in words.split()}
 """Keys of the case by words of headings."""
 _RADII = ("radius", "radius_x", "radius_y")
@@ -77,6 +78,7 @@ _ALTERNATIVES = (
         tuple(f"surface_{side}.{key}" for key in ("temperature", "thermal_resistance", "cooling"))
         for side in (1, 2)
     ),
+    ("lubricant.temperature", "thermal.temperature"),
 )
 """Keys of which a case states one: a row that states another removes that of the template."""
 _SIGNS = str.maketrans({"µ": "u", "μ": "u", "²": "^2", "³": "^3", "·": " ", "⋅": " ", "−": "-"})
@@ -145,7 +147,7 @@ def read_contacts(path: Path, template: Path | None = None) -> Contacts:
         message.
     """
     base, folder = template_tables(template)
-    lines = _lines(path)
+    lines = lines_of(path)
     try:
         return _contacts(lines, base, folder)
     except InputError as error:
@@ -155,24 +157,21 @@ def read_contacts(path: Path, template: Path | None = None) -> Contacts:
 def template_tables(template: Path | None) -> tuple[dict[str, Any], Path | None]:
     """Return the tables of a template and the folder in which its files are."""
     if template is None:
-        import tomllib  # noqa: PLC0415 (only here)
-
-        base = tomllib.loads(template_text(TEMPLATE))
-        return base, None
+        return tables_of_text(template_text(TEMPLATE)), None
     try:
         return toml_tables(template), template.parent
     except InputError as error:
         raise InputError(f"template {shortened(template)}: {error}") from None
 
 
-def _lines(path: Path) -> list[tuple[int, list[Any]]]:
+def lines_of(path: Path) -> list[tuple[int, list[Any]]]:
     """Return the numbers and the cells of the rows of a file, headings first; None is empty."""
     ending = path.suffix.lower()
     if ending == ".xlsx":
         return lines_of_sheet(path, "list of contacts")
     if ending == ".parquet":
         frame = _frame_of_parquet(path)
-        return _lines_of_frame(frame)
+        return lines_of_frame(frame)
     return [
         (number, [cell or None for cell in line])
         for number, line in numbered_lines(path, "list of contacts")
@@ -191,7 +190,7 @@ def _frame_of_parquet(path: Path) -> "pd.DataFrame":
         raise InputError(f"{shortened(path)} cannot be read as Parquet: {error}") from None
 
 
-def _lines_of_frame(frame: "pd.DataFrame") -> list[tuple[int, list[Any]]]:
+def lines_of_frame(frame: "pd.DataFrame") -> list[tuple[int, list[Any]]]:
     """Return headings and rows of a frame; the first row has number 1."""
     head = [(0, [str(name) for name in frame.columns])]
     empty = frame.isna().to_numpy()
@@ -212,9 +211,31 @@ def _plain(cell: Any) -> Any:
 def _contacts(
     lines: list[tuple[int, list[Any]]], base: dict[str, Any], folder: Path | None
 ) -> Contacts:
+    columns, body = columns_and_rows(lines)
+    rows = tuple(_listed(number, cells, columns, base, folder) for number, cells in body)
+    return Contacts(columns=tuple(columns), rows=rows)
+
+
+def columns_and_rows(
+    lines: list[tuple[int, list[Any]]], others: Mapping[str, str] = NO_WORDS
+) -> tuple[list[Column], list[tuple[int, list[Any]]]]:
+    """Return the columns of a list, and its rows below the headings and units.
+
+    Parameters
+    ----------
+    lines : list of (int, list)
+        Numbers and cells of the rows, headings first.
+    others : Mapping
+        Names of columns that are not keys of a case, by words of their headings.
+
+    Raises
+    ------
+    InputError
+        If there is no row, or a heading is not known.
+    """
     if len(lines) < 2:
         raise InputError("has no contacts: the first row has the headings, each other one contact")
-    columns = [_column("" if cell is None else str(cell)) for cell in lines[0][1]]
+    columns = [_column("" if cell is None else str(cell), others) for cell in lines[0][1]]
     body = lines[1:]
     if _is_units(body[0][1]):
         units = [_unit("" if cell is None else str(cell)) for cell in body[0][1]]
@@ -226,8 +247,7 @@ def _contacts(
     _check_columns(columns, [line for _, line in body])
     if not body:
         raise InputError("has no contacts below its units")
-    rows = tuple(_listed(number, cells, columns, base, folder) for number, cells in body)
-    return Contacts(columns=tuple(columns), rows=rows)
+    return columns, body
 
 
 def contacts_of(frame: "pd.DataFrame", base: dict[str, Any], folder: Path | None) -> Contacts:
@@ -242,20 +262,20 @@ def contacts_of(frame: "pd.DataFrame", base: dict[str, Any], folder: Path | None
     folder : Path or None
         Where relative paths of measured surfaces begin.
     """
-    return _contacts(_lines_of_frame(frame), base, folder)
+    return _contacts(lines_of_frame(frame), base, folder)
 
 
-def _column(text: str) -> Column:
+def _column(text: str, others: Mapping[str, str] = NO_WORDS) -> Column:
     """Return the column of a heading."""
     match = _HEADING.fullmatch(text)
     name, unit = text, ""
     if match is not None:
         name = match["name"]
         unit = next((one for one in match.group("a", "b", "c", "d") if one is not None), "")
-    key, word = _key(name), _unit(unit)
+    key, word = _key(name, others), _unit(unit)
     if key is None and not unit and "_" in name:  # load_N
         first, _, last = name.rpartition("_")
-        if is_unit(_unit(last)) and (known := _key(first)) is not None:
+        if is_unit(_unit(last)) and (known := _key(first, others)) is not None:
             key, word = known, _unit(last)
     if unit and not is_unit(word):
         if key is not None and word not in ("-", "1", ""):
@@ -276,12 +296,12 @@ def _is_units(cells: Sequence[Any]) -> bool:
     return bool(units) and len(units) == len(words) and set(words) != {"1"}
 
 
-def _key(name: str) -> str | None:
-    """Return the key of the case that a heading means; None if it is not known."""
+def _key(name: str, others: Mapping[str, str]) -> str | None:
+    """Return the key of the case, or the other name, that a heading means; None if not known."""
     text = name.strip()
-    word = re.sub(r"[\W_]+", "_", text.lower()).strip("_")
-    if word in _KEYS:
-        return _KEYS[word]
+    word = re.sub(r"(?:[^\w±]|_)+", "_", text.lower()).strip("_")
+    if word in _KEYS or word in others:
+        return others.get(word) or _KEYS[word]
     paths = _paths()
     if "." in text and text.split(".")[0] in _tables():
         return text
@@ -320,6 +340,23 @@ def _check_columns(columns: Sequence[Column], lines: Sequence[Sequence[Any]]) ->
             raise InputError(f'the column "{one.heading}" is not known; {guess}')
 
 
+def stated_in(columns: Sequence[Column], cells: Sequence[Any]) -> dict[str, Any]:
+    """Return the values that a row states by the keys of its columns, with their units.
+
+    Parameters
+    ----------
+    columns : sequence of Column
+        Those without a key are left out.
+    cells : sequence
+        Of the row, in the same order; None is empty.
+    """
+    return {
+        one.key: _value(cell, one.unit)
+        for one, cell in zip(columns, cells, strict=True)
+        if one.key is not None and cell is not None
+    }
+
+
 def _listed(
     number: int,
     cells: Sequence[Any],
@@ -328,13 +365,8 @@ def _listed(
     folder: Path | None,
 ) -> Listed:
     """Return a row with its case, or with what is wrong in it."""
-    stated = {
-        one.key: _value(cell, one.unit)
-        for one, cell in zip(columns, cells, strict=True)
-        if one.key is not None and cell is not None
-    }
     try:
-        problem, options = case_from_tables(_tables_of(base, stated), folder)
+        problem, options = case_from_tables(tables_of(base, stated_in(columns, cells)), folder)
         if problem.transient is not None or problem.has_passes:
             raise InputError("a list of contacts has steady ones: leave out transient and passes")
     except InputError as error:
@@ -363,8 +395,16 @@ def _value(cell: Any, unit: str) -> Any:
     return f"{cell!r} {unit}"
 
 
-def _tables_of(base: dict[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the tables of a case: the template with what a row states."""
+def tables_of(base: dict[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the tables of a case.
+
+    Parameters
+    ----------
+    base : dict
+        Tables of the template, which are not changed.
+    stated : Mapping
+        What a row states instead, by key path.
+    """
     tables = copy.deepcopy(base)
     for key in _replaced(stated):
         _remove(tables, key)
