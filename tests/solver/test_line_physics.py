@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pandas as pd
 import pytest
 from pydantic import ValidationError
 
@@ -162,3 +163,10 @@ def test_pictures_show_a_heated_rough_line(tmp_path):
     assert {path.stem for path in paths} == set(pictures)
     assert {"centre_lines", "rough_centre_line", "temperature_section"} < set(pictures)
     assert "rolling" in found.summary()
+
+
+def test_a_list_of_contacts_may_have_lines():
+    row = {"type": "line", "radius [mm]": 20, "load per length [N/mm]": 200, "speed [m/s]": 1.5}
+    table = tehl.solve_contacts(pd.DataFrame([row]))
+    assert table["status"].tolist() == ["converged"]
+    assert table["Moes M"].iloc[0] == pytest.approx(8.58, rel=1e-3)

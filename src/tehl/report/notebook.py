@@ -8,7 +8,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from tehl.io.summary import summary
-from tehl.plots import film_map, history
+from tehl.plots import centre_lines, film_map, history
 from tehl.report.headline import headline
 from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
@@ -25,7 +25,9 @@ def result_html(result: Solution | TransientSolution) -> str:
         for name, value in rows.items()
     )
     table = f"<table><caption>{escape(found['title'])}</caption>{cells}</table>"
-    draw: Any = history if isinstance(result, TransientSolution) else film_map
+    draw: Any = history
+    if isinstance(result, Solution):
+        draw = centre_lines if result.problem.contact.is_line else film_map
     picture = image_html(draw(result, title=False), "film of the contact")
     style = "display: flex; flex-wrap: wrap; gap: 1.5em; align-items: center"
     return f'<div style="{style}">{table}{picture}</div>'

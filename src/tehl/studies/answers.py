@@ -10,6 +10,7 @@ from tehl.api.problem import ContactProblem
 from tehl.base.atomic import replacing
 from tehl.base.lists import check_format
 from tehl.base.units import percentage
+from tehl.base.wording import grid_size
 from tehl.result.quantity import Quantity
 from tehl.result.registry import shown_in
 from tehl.studies.case import Row
@@ -96,8 +97,8 @@ def _obtained(row: Row | None) -> str:
         return f"{row.message or row.cause or row.status}{hint}"
     errors = [row.summary.get(f"errors.{name}") for name in ("central", "minimum")]
     worst = max((one for one in errors if isinstance(one, int | float)), default=None)
-    nodes = f"{row.summary.get('cost.points.0')} x {row.summary.get('cost.points.1')}"
-    text = f"solved on {nodes} nodes"
+    nx, ny = (int(row.summary.get(f"cost.points.{axis}") or 0) for axis in (0, 1))
+    text = f"solved on {grid_size((nx, ny))}"
     return text if worst is None else f"{text}, film to {percentage(worst)}"
 
 

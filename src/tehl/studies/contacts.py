@@ -33,7 +33,9 @@ TEMPLATE = "ball-on-disc"
 ROW_SECONDS = 60.0
 """Time after which no finer grid is started for a contact, if it states none."""
 _WORDS = {
+    "contact.type": "type contact_type",
     "contact.load": "load force normal_load normal_force ball_load w q f_n",
+    "contact.load_per_length": "load_per_length line_load unit_load specific_load w_l",
     "contact.hertz_pressure": "p_h ph p_hertz p0 p_0 hertz_pressure hertzian_pressure",
     "contact.entrainment_speed": "u_m u speed entrainment_speed entrainment mean_speed "
     "entraining_speed rolling_speed",
@@ -69,7 +71,7 @@ _KEYS = {word: key for key, words in _WORDS.items() for word in words.split()}
 """Keys of the case by words of headings."""
 _RADII = ("radius", "radius_x", "radius_y")
 _ALTERNATIVES = (
-    ("contact.load", "contact.hertz_pressure", "contact.moes_load"),
+    ("contact.load", "contact.load_per_length", "contact.hertz_pressure", "contact.moes_load"),
     ("contact.entrainment_speed", "contact.moes_speed"),
     ("surface_1.rms_roughness", "surface_1.ra_roughness"),
     ("surface_2.rms_roughness", "surface_2.ra_roughness"),
