@@ -10,10 +10,13 @@ from scipy.integrate import quad
 from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.api.solvers import solve, solve_transient
+from tehl.cli.text import as_text
 from tehl.contact.options import Options
 from tehl.operators.energy import FilmState
+from tehl.post import boundary_contact
 from tehl.post.bodies import heat_into_bodies
 from tehl.post.boundary_contact import touching_nodes
+from tehl.report.page import report_text
 
 TIGHT = Options(points=65, accuracy="tight")
 BESIDE_CONTACT = ("heat", "thinning", "starved", "conserving", "asperities")
@@ -143,3 +146,16 @@ def test_friction_in_time_is_that_of_film_and_solids():
 @pytest.mark.parametrize("other", [name for name in FEATURES if name != "boundary"])
 def test_each_physics_works_with_a_boundary_film(other: str):
     assert outcome((other, "boundary"), 65) == "works"
+
+
+def test_the_text_states_the_friction_of_film_contact_and_asperities_together(monkeypatch):
+    monkeypatch.setattr(boundary_contact, "LEAST_CELLS", 0.0)  # the share of few cells
+    monkeypatch.setattr(boundary_contact, "LARGEST_SHARE_BAR", 1.0)
+    found = solve(grooves("boundary", "asperities"), Options(points=65))
+    shared, apart = found.touching, found.load_sharing
+    assert 0.3 < shared.share < shared.share + apart.share < 1.0
+    total = shared.friction_film + shared.friction_boundary + apart.friction_boundary
+    text = as_text(found)
+    assert f"friction         {total:.3g}: film" in text
+    assert text.count("  friction    ") == 1
+    assert "friction" in report_text(found, dpi=30)
