@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import tehl
 from tehl.explore.axes import Scale, log_ticks, ticks
 from tehl.explore.colour_map import (
     film_limits,
@@ -19,6 +20,7 @@ from tehl.explore.curves import Point, line_charts, line_tops, swept_chart, valu
 from tehl.explore.numbers import numbers, value_of
 from tehl.explore.shown import shown
 from tehl.report.explain import explain
+from tests.cases import ball_tables
 
 SIZE = (640.0, 560.0)
 
@@ -120,3 +122,18 @@ def test_numbers_are_those_of_the_result_with_bars_and_formulas(result):
     assert value_of(found, "p_max").formulas[0][0] == "Hertz"
     assert value_of(found, "t_max").value is None
     assert value_of(found, "t_max").remark
+
+
+def test_a_line_contact_is_a_strip_of_equal_lines():
+    contact = {"type": "line", "radius": 0.02, "load_per_length": "200 N/mm"}
+    problem = tehl.ContactProblem.model_validate(
+        ball_tables(contact=contact | {"entrainment_speed": 1.5})
+    )
+    result = tehl.solve(problem, tehl.Options(points=257))
+    found = shown(result, explain(problem, result.options), fringes=True)
+    assert found.fringes is not None
+    np.testing.assert_array_equal(found.maps.film[0], found.maps.film[-1])
+    for draw, limits in ((film_picture, film_limits), (pressure_picture, pressure_limits)):
+        assert draw(found.maps, limits(found.maps), SIZE).image.startswith("data:image")
+    assert found.lines.y[1] == pytest.approx([found.maps.central] * 2, rel=1e-3)
+    assert len(line_charts(found, SIZE, line_tops(found.lines))) == 2

@@ -12,6 +12,7 @@ from tehl.estimate.film_formulas import expected_central_film, moes_film_unit
 from tehl.estimate.line import (
     LINE_ERROR,
     LINE_ROUGH_NODES,
+    line_bar,
     line_domain,
     line_edge_error,
     line_field_error,
@@ -182,6 +183,8 @@ def expected_bar(
     film : float or None
         Central film, if another than that of smooth flooded contacts [-]: `film_to_resolve`.
     """
+    if groups.shape is LINE:
+        return line_bar(groups, domain, nodes)
     width = (domain.x[1] - domain.x[0]) / (nodes - 1)
     film = expected_central_film(groups) if film is None else film
     factor = BAR * (BAR_COUPLED if is_coupled else 1.0)

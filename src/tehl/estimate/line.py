@@ -91,6 +91,19 @@ def line_edge_error(along: float, domain: Domain) -> float:
     return float(ZERO * (-along / domain.x[0]) ** 3)
 
 
+def line_bar(groups: Groups, domain: Domain, nodes: float) -> float:
+    """Return the error bar of the film by the mesh to expect.
+
+    Parameters
+    ----------
+    groups, domain : Groups, Domain
+        The contact, and the domain of the solve.
+    nodes : float
+        Nodes along x.
+    """
+    return LINE_BAR * groups.M * ((domain.x[1] - domain.x[0]) / (nodes - 1)) ** 2
+
+
 def line_points(groups: Groups, domain: Domain, error: float, least: float = 0.0) -> int:
     """Return the nodes on which the error bars of the film will be below an error.
 
@@ -103,6 +116,5 @@ def line_points(groups: Groups, domain: Domain, error: float, least: float = 0.0
     least : float
         Nodes that must be exceeded, for waves of the surfaces.
     """
-    width = domain.x[1] - domain.x[0]
-    bars = ((nodes, LINE_BAR * groups.M * (width / (nodes - 1)) ** 2) for nodes in FAMILIES)
+    bars = ((nodes, line_bar(groups, domain, nodes)) for nodes in FAMILIES)
     return next((nodes for nodes, bar in bars if nodes > least and bar <= error), FAMILIES[-1])

@@ -78,8 +78,8 @@ def load(state: State) -> Choice:
     problem = state.problem
     by_length = ("load per length", f"{1e-3 * problem.load:.5g} N/mm")
     force = ("load", f"{problem.load:.5g} N")
-    loads = {"load_per_length": by_length} if problem.contact.is_line else {"load": force}
-    loads |= {
+    stated = {"load_per_length": by_length} if problem.contact.is_line else {"load": force}
+    loads = stated | {
         "hertz_pressure": ("Hertz pressure", f"{problem.hertz.pressure * 1e-9:.5g} GPa"),
         "moes_load": ("Moes M", float(f"{state.scaled.groups.M:.5g}")),
     }

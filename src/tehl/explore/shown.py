@@ -7,7 +7,7 @@ import numpy as np
 from tehl.api.results import Result
 from tehl.base.typing import Array
 from tehl.explore.numbers import Number, numbers
-from tehl.plots.frame import span_part, stretched, window, window_part
+from tehl.plots.frame import WINDOW, span_part, stretched, window, window_part
 from tehl.plots.interferogram import Optics, colours
 from tehl.report.explain import Explanation
 from tehl.result.solution import Settings
@@ -17,6 +17,8 @@ _SECTION_POINTS = 41
 _INTERFEROGRAM_PIXELS = 480
 """Pixels along x of an interferogram."""
 
+STRIP, FAR_RIM = 1.7, 100.0
+"""Half of the width at which a line contact is shown, and of its dry contact, over b."""
 Span = tuple[float, float]
 Line = tuple[Array, Array, Array, Array]
 
@@ -123,7 +125,9 @@ def outcome_of(result: Result) -> Outcome:
 
 
 def maps_of(result: Result) -> Maps:
-    """Return film and pressure in the window around the contact."""
+    """Return film and pressure in the window around the contact; a line contact as a strip."""
+    if result.problem.contact.is_line:
+        return _strip(result)
     rows, columns = window_part(result)
     half = (result.scales.half_width_x * 1e6, result.scales.half_width_y * 1e6)
     x, y = ((low * a, high * a) for (low, high), a in zip(window(result), half, strict=True))
@@ -137,6 +141,26 @@ def maps_of(result: Result) -> Maps:
         pressure=_single(result.pressure[rows, columns] * 1e-9),
         central=result.film.central * 1e9,
         minimum=_minimum(result, half),
+    )
+
+
+def _strip(result: Result) -> Maps:
+    """Return a part of a line contact that is as wide as long."""
+    columns, half = span_part(result.scaled.x, WINDOW[0]), result.scales.half_width_x * 1e6
+    (low, high), edges = WINDOW[0], STRIP * half * np.array([-1.0, 0.0, 1.0])
+    film, pressure = (
+        _single(np.repeat(field[:, columns], 3, axis=0))
+        for field in (result.film_thickness * 1e9, result.pressure * 1e-9)
+    )
+    return Maps(
+        x=result.x[columns] * 1e6,
+        y=edges,
+        window=((low * half, high * half), (float(edges[0]), float(edges[-1]))),
+        half_widths=(half, FAR_RIM * half),
+        stretch=1.0,
+        film=film,
+        pressure=pressure,
+        central=result.film.central * 1e9,
     )
 
 
@@ -164,8 +188,13 @@ def _lines(result: Result) -> Lines:
         dry = hertz * result.groups.shape.dry_pressure(along, np.zeros(1))
         return place * 1e6, _single(fields[0]), _single(fields[1]), dry
 
+    along = line(result.x[x], scaled.x[x], (film[row, x], pressure[row, x]))
+    if result.problem.contact.is_line:  # the same at all y
+        edges = STRIP * result.scales.half_width_x * np.array([-1.0, 1.0])
+        middle = tuple(np.repeat(field[row, column], 2) for field in (film, pressure))
+        return Lines(x=along, y=line(edges, np.zeros(2), (middle[0], middle[1])))
     return Lines(
-        x=line(result.x[x], scaled.x[x], (film[row, x], pressure[row, x])),
+        x=along,
         y=line(result.y[y], scaled.y[y], (film[y, column], pressure[y, column])),
     )
 
@@ -191,13 +220,14 @@ def _fringes(result: Result) -> Array:
     """Return the film as an optical rig shows it in white light, as RGB bytes."""
     from scipy.interpolate import RectBivariateSpline  # noqa: PLC0415 (0.3 s)
 
-    maps, (rows, columns) = maps_of(result), window_part(result)
+    maps, scales = maps_of(result), result.scales
     law, optics = result.problem.lubricant.density, Optics()
-    ratio = law.density(result.pressure[rows, columns], result.scales.temperature)
-    thickness = optics.thickness(maps.film * 1e-9, ratio / result.scales.density)
+    ratio = law.density(maps.pressure.astype(np.float64) * 1e9, scales.temperature)
+    thickness = optics.thickness(maps.film * 1e-9, ratio / scales.density)
     (left, right), (bottom, top) = maps.window
     height = max(2, round(_INTERFEROGRAM_PIXELS * (top - bottom) / (right - left) * maps.stretch))
-    fine = RectBivariateSpline(maps.y, maps.x, thickness)(
+    order = min(3, maps.y.size - 1)
+    fine = RectBivariateSpline(maps.y, maps.x, thickness, kx=order)(
         np.linspace(bottom, top, height), np.linspace(left, right, _INTERFEROGRAM_PIXELS)
     )
     seen = colours(np.maximum(fine, 0.0), optics)

@@ -335,7 +335,8 @@ def _about_grid(options: Options, scaled: ScaledProblem) -> Iterator[str]:
             f"numerics.points is stated, so numerics.error = {percentage(options.error)} is not "
             "enforced: remove one of them"
         )
-    groups, nodes, coupled = scaled.entering, min(options.shape), scaled.problem.is_coupled
+    groups, coupled = scaled.entering, scaled.problem.is_coupled
+    nodes = min(one for one in options.shape if one > 1)  # a line contact has one row
     bar = expected_bar(groups, domain_of(scaled, options), nodes, is_coupled=coupled)
     if bar > options.target:
         size = "above 100 %" if bar > 1.0 else f"about {percentage(bar)}"
