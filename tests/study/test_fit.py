@@ -85,6 +85,9 @@ def test_a_file_of_an_ehd2_is_read_and_alpha_is_that_of_its_oil(tmp_path, case):
     assert found["noise"]["film"] < 0.05
     assert [row["u_m [m/s]"] for row in found["points"]] == pytest.approx(SPEEDS)
     assert [row["T [°C]"] for row in found["points"]] == [40, 40, 50, 50, 50]
+    picture = plots.oil_fit(pd.DataFrame(found["points"]))
+    curves = [text.get_text() for text in picture.axes[0].get_legend().get_texts()]
+    assert curves == ["T 40", "T 50"]
     table = tomllib.loads(oil.read_text(encoding="utf-8"))["lubricant"]
     fitted = tehl.Lubricant.model_validate(table)
     assert fitted.viscosity.alpha == pytest.approx(alpha["value"], rel=1e-3)

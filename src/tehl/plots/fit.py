@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.plots.frame import BLUE, GREEN, ORANGE, PLAIN, Picture
 
 if TYPE_CHECKING:
@@ -49,9 +50,8 @@ def _draw(upper: Axes, lower: Axes, rows: "pd.DataFrame", kind: str) -> None:
     across = _across(rows, kind)
     scale = 1.0 if kind == "traction" else _NANO
     steps = {name: step for name, step in _STEPS.items() if name != across}
-    keys = [
-        tuple(round(row[name] / step) for name, step in steps.items()) for _, row in rows.iterrows()
-    ]
+    clusters = [_clusters(rows[name].to_numpy(), step) for name, step in steps.items()]
+    keys = list(zip(*clusters, strict=True))
     groups = list(dict.fromkeys(keys))
     look: dict[str, Any] = {"fmt": "o", "ms": 3.5, "lw": 1.0, "capsize": 2.0}
     varied = [name for k, name in enumerate(steps) if len({key[k] for key in groups}) > 1]
@@ -82,6 +82,14 @@ def _draw(upper: Axes, lower: Axes, rows: "pd.DataFrame", kind: str) -> None:
             axis.set_minor_formatter(NullFormatter())
     if varied:
         upper.legend(**PLAIN)
+
+
+def _clusters(values: Array, step: float) -> list[int]:
+    """Return the number of the cluster of each value; a gap of more than ``step`` begins one."""
+    order = np.argsort(values, kind="stable")
+    found = np.empty(values.size, dtype=int)
+    found[order] = np.concatenate([[0], np.cumsum(np.diff(values[order]) > step)])
+    return found.tolist()
 
 
 def _across(rows: "pd.DataFrame", kind: str) -> str:

@@ -19,7 +19,7 @@ from tehl.studies.engines import Engine
 from tehl.studies.fitting.constants import Constant, with_value
 from tehl.studies.fitting.measured import KINDS, Point
 
-FIT_ERROR = 0.05
+FIT_ERROR = 0.03
 """Error of the films if the case does not state it: bars are then about 1 %."""
 _DIFFERENCE = 0.02
 """Change of the logarithm of a constant for its derivatives, which are within 1 %."""
