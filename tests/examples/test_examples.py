@@ -246,3 +246,13 @@ def test_the_oil_of_a_test_is_found_within_its_intervals():
     assert found.noise["film"] == pytest.approx(0.03, rel=0.6)
     assert found.lubricant.shear.stress == pytest.approx(stress.value, rel=1e-3)
     assert alpha.value == pytest.approx(21.8e-9, rel=5e-3)
+
+
+def test_a_film_is_softer_than_the_dry_contact_when_slow_and_stiffer_when_fast():
+    found = example("film_dynamics").main()
+    _, stiffness, damping = zip(*found, strict=True)
+    # dry: 49.73 N/um; on 257 nodes 48.30 N/um and 453 N s/m
+    assert stiffness[0] == pytest.approx(48.25, rel=2e-3)
+    assert damping[0] == pytest.approx(461.5, rel=1e-2)
+    assert stiffness[0] < 49.73 < stiffness[-1]
+    assert min(damping) > 0.0

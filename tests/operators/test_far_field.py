@@ -9,7 +9,7 @@ from scipy.integrate import quad
 from tehl.contact.options import Domain
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import groups
-from tehl.operators.far_field import FarField, angular_pressure
+from tehl.operators.far_field import FarField, angular_pressure, angular_squeeze
 from tehl.operators.film import gap
 from tests.reference import moes_contact
 
@@ -36,6 +36,33 @@ def test_the_pressure_solves_its_equation_where_it_is_positive(ratio):
     assert left[wet] == pytest.approx(np.cos(angle[1:-1][wet]), abs=1e-6)
     assert np.all(np.cos(angle[1:-1][~wet]) >= -1e-12)  # dry where the gap opens
     assert np.all(np.diff(f[f > 0.0])[:3] > 0.0)
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
+def test_far_from_the_cavity_the_squeeze_is_that_of_paraboloids(ratio):
+    # without cavitation -lambda / (2 (1 + D) H^2) solves (H^3 P')' = lambda dH/dt: q = 2 / (1 + D)
+    # upstream on the axis, where H = r^2 / 2
+    squeeze = angular_squeeze(ratio)
+    assert squeeze[-1] == pytest.approx(2.0 / (1.0 + ratio), rel=0.02)
+    assert squeeze.min() > -1e-9
+    assert np.abs(squeeze[angular_pressure(ratio)[1] == 0.0]).max() < 1e-9
+
+
+def test_the_slopes_are_those_of_edges_and_load():
+    grid = Grid(nx=65, ny=65, domain=DOMAIN, mirror=False)
+    far, flat, step = FarField(grid, GROUPS), gap(grid, GROUPS), 1e-4
+    found = far.slopes(flat + 3.0, flat)
+    fields = []
+    for film in (flat + 3.0 + step, flat + 3.0 - step):
+        pressure = np.zeros(grid.shape)
+        far.set_edges(pressure, film)
+        fields.append((pressure, far.load(film, flat)))
+    (more, load), (less, other) = fields
+    assert found.by_film == pytest.approx((more - less) / (2.0 * step), rel=1e-6, abs=1e-15)
+    assert found.load_by_film == pytest.approx((load - other) / (2.0 * step), rel=1e-6)
+    # outside of the inlet the squeeze resists
+    assert (found.by_rate <= 0.0).all()
+    assert found.load_by_rate < 0.0
 
 
 def test_the_edges_have_the_pressure_of_the_rigid_gap():

@@ -91,9 +91,10 @@ def test_at_rest_the_stiffness_is_that_of_two_steady_films():
     assert still == pytest.approx(slope, rel=1e-4)
 
 
-def test_the_march_in_time_has_the_same_response():
+@pytest.mark.parametrize(("omega", "points"), [(1.0, 97), (3.0, 129)])
+def test_the_march_in_time_has_the_same_response(omega, points):
     """Load with an amplitude of 1 %: approach, and so k + i omega c, follow from its phase."""
-    problem, omega, periods = moes_contact(50.0, 10.0), 1.0, 3
+    problem, periods = moes_contact(50.0, 10.0), 3
     period = 2.0 * np.pi / omega * time_of(problem)
     times = np.linspace(0.0, periods * period, 24 * periods + 1)
     given = problem.model_dump(exclude_none=True)
@@ -104,7 +105,7 @@ def test_the_march_in_time_has_the_same_response():
         "frames": 0,
         "tolerance": 1e-6,
     }
-    run = solve_transient(ContactProblem.model_validate(given), on(65))
+    run = solve_transient(ContactProblem.model_validate(given), on(points))
     history = run.history
     last = history.time > (periods - 1) * period
     angle = omega * history.time[last] / time_of(problem)
@@ -113,9 +114,9 @@ def test_the_march_in_time_has_the_same_response():
     (_, load_sine, load_cosine), *_ = np.linalg.lstsq(basis, history.load[last], rcond=None)
     target = 2.0 * np.pi / 3.0
     response = -target * (load_sine + 1j * load_cosine) / (sine + 1j * cosine)
-    stiffness, damping = dimensionless(solve(at(problem, omega), on(65)))
+    stiffness, damping = dimensionless(solve(at(problem, omega), on(points)))
     assert response.real == pytest.approx(stiffness[1], rel=0.01)
-    assert response.imag == pytest.approx(damping[1], rel=0.06)  # 100 steps per period
+    assert response.imag == pytest.approx(damping[1], rel=0.03)
 
 
 def test_films_absorb_and_obey_kramers_and_kronig(swept: Result):

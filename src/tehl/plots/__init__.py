@@ -56,6 +56,7 @@ __all__ = [
     "contact_map",
     "contour_map",
     "curves",
+    "dynamics_curves",
     "film_deviations",
     "film_distribution",
     "film_map",
