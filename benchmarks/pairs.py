@@ -33,6 +33,8 @@ FEATURES: dict[str, Tables] = {
     "load": {"transient": {"duration": "3 ms", "load": [["0 ms", 1.0], ["3 ms", 1.2]]}},
 }
 """Tables of each physics, laid over `BASE`."""
+LEAST_CERTIFIABLE = 129
+"""Nodes from which a grid can be halved twice."""
 BASE: Tables = {
     "contact": {"load": "10 N", "entrainment_speed": "0.4 m/s", "slide_roll_ratio": 0.3},
     "surface_1": {"material": "steel"},
@@ -105,5 +107,6 @@ def table(points: int, *, quick: bool = False) -> Table:
         for other in names:
             text = found.get(frozenset((name, other)), "")
             cells.append(notes.index(text) + 1 if text in notes else text)
-        made.rows.append((name, *cells, outcome((name,), points, bars=True)))
+        bars = outcome((name,), max(points, LEAST_CERTIFIABLE), bars=True)
+        made.rows.append((name, *cells, bars))
     return made
