@@ -34,7 +34,7 @@ TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "rough": rough.tables,
     "asperities": asperities.tables,
     "mixed": mixed.table,
-    "touching": touching.table,
+    "touching": touching.tables,
     "pairs": pairs.table,
 }
 BY_DEFAULT = ("speed", "rate", "deformation")

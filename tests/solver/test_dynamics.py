@@ -156,6 +156,15 @@ def test_starved_and_heated_films_have_both(table):
     assert (found.dynamics.damping + found.dynamics.damping_error > 0.0).all()
 
 
+def test_the_bar_of_a_starved_stiffness_contains_that_of_steady_films():
+    """Films of the same layer at four loads around 80 N, on 257 nodes: 49.63 N/um."""
+    tables = ball_tables(supply={"layer": "0.2 um"}, dynamics={"frequencies": ["200 Hz"]})
+    domain = Domain(x=(-2.6, 1.5), y=(-1.9, 1.9))
+    found = solve(case_from_tables(tables)[0], Options(points=129, domain=domain)).dynamics
+    assert 0.0 < found.stiffness_error[0] < 0.05 * found.stiffness[0]
+    assert abs(found.stiffness[0] - 49.63e6) < found.stiffness_error[0]
+
+
 def test_results_keep_and_show_stiffness_and_damping(swept: Result, tmp_path):
     save(swept, tmp_path / "a.nc")
     again = load(tmp_path / "a.nc")

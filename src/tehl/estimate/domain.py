@@ -12,6 +12,7 @@ from tehl.estimate.film_formulas import expected_central_film, moes_film_unit
 from tehl.estimate.line import (
     LINE_ERROR,
     LINE_ROUGH_NODES,
+    OUTLET,
     line_bar,
     line_domain,
     line_edge_error,
@@ -41,8 +42,6 @@ the parabolic gap that is as thick as twice the film."""
 WIDE_INLET = 0.25
 """Power of the ellipticity by which the inlet of a wide contact is longer: it draws from further
 upstream."""
-OUTLET = 5.0 / 11.0
-"""Outlet over inlet: X = 0 is a node of every grid of 16 intervals or more."""
 SEPARATION_WITHOUT_CONTACT, EDGE_GAP_MARGIN = 4.5, 1.3
 """Separation over sigma from which asperities carry less than 1e-4 of what they do in touch, and
 margin on the gap at the edges."""

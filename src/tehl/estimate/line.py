@@ -15,15 +15,15 @@ LEAST_LINE_INLET, INLET_ERROR_PART = 3.4, 0.15
 """Least distance of the inlet edge, in half-widths, and error by it over the error to reach."""
 OUTLET = 5.0 / 11.0
 """Outlet over inlet: X = 0 is a node of every grid of 16 intervals or more."""
-FIELD, FIELD_POWER = 0.5, 5.0
+FIELD_EDGE_ERROR, FIELD_EDGE_POWER = 0.5, 5.0
 """Error of the film by the far field on the inlet edge, at the distance where the undeformed gap is
 the film, and its power: twice what wider domains show for M = 1 to 50, L = 2 to 15 at 2 to 12 such
 distances."""
 MENISCUS_GAP, LARGEST_SUPPLY = 4.0, 0.995
 """Gap that holds the meniscus, over the film and 1 - r, and largest r for which it does."""
-ZERO = 2.0
+ZERO_EDGE_ERROR = 2.0
 """Error by zero pressure there, of power 3: one to two times what wider domains show."""
-LINE_BAR, FAMILIES = 0.06, tuple(2**k * n + 1 for k in range(5, 10) for n in (16, 20, 24, 28))
+LINE_BAR, LINE_NODES = 0.06, tuple(2**k * n + 1 for k in range(5, 10) for n in (16, 20, 24, 28))
 """Error of the film over M h^2, and numbers of nodes: on fewer a solve is hardly cheaper."""
 
 
@@ -37,8 +37,8 @@ def line_domain(along: float, error: float) -> Domain:
     error : float
         Relative error of the film that is acceptable [-].
     """
-    thick = along * (FIELD / (INLET_ERROR_PART * min(error, USUAL_PLAIN_ERROR))) ** (
-        1.0 / FIELD_POWER
+    thick = along * (FIELD_EDGE_ERROR / (INLET_ERROR_PART * min(error, USUAL_PLAIN_ERROR))) ** (
+        1.0 / FIELD_EDGE_POWER
     )
     inlet = math.ceil(10.0 * max(LEAST_LINE_INLET, thick)) / 10.0
     return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=LINE_WIDTH)
@@ -75,7 +75,7 @@ def line_field_error(along: float, domain: Domain) -> float:
     domain : Domain
         Its inlet edge.
     """
-    return float(FIELD * (-along / domain.x[0]) ** FIELD_POWER)
+    return float(FIELD_EDGE_ERROR * (-along / domain.x[0]) ** FIELD_EDGE_POWER)
 
 
 def line_edge_error(along: float, domain: Domain) -> float:
@@ -88,7 +88,7 @@ def line_edge_error(along: float, domain: Domain) -> float:
     domain : Domain
         Its inlet edge.
     """
-    return float(ZERO * (-along / domain.x[0]) ** 3)
+    return float(ZERO_EDGE_ERROR * (-along / domain.x[0]) ** 3)
 
 
 def line_bar(groups: Groups, domain: Domain, nodes: float) -> float:
@@ -116,5 +116,5 @@ def line_points(groups: Groups, domain: Domain, error: float, least: float = 0.0
     least : float
         Nodes that must be exceeded, for waves of the surfaces.
     """
-    bars = ((nodes, line_bar(groups, domain, nodes)) for nodes in FAMILIES)
-    return next((nodes for nodes, bar in bars if nodes > least and bar <= error), FAMILIES[-1])
+    bars = ((nodes, line_bar(groups, domain, nodes)) for nodes in LINE_NODES)
+    return next((nodes for nodes, bar in bars if nodes > least and bar <= error), LINE_NODES[-1])

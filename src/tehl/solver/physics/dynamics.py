@@ -22,9 +22,13 @@ COARSE_RESPONSE = 17
 """Least nodes along x of the coarse correction: with 33 the dense matrix takes half of the time."""
 FRONT_DISTANCE = 0.1
 """Distance from the cavity, in half-widths, at which the pressure limits the amplitude."""
-RESPONSE_BAR, FRONT_BAR = 0.5, 2.0
+RESPONSE_BAR, FRONT_BAR = 0.5, 4.0
 """Error bar over the change between two grids: of a value of second order a third, measured up to
 0.41 (M 50 and 100, L 5 and 10); of first order where a film begins behind a meniscus."""
+LEAST_FRONT_BARS = 0.5, 20.0
+"""Least bars behind a meniscus of stiffness and damping, over themselves and the mesh width: two
+grids may agree by chance. Stiffnesses of two contacts (r = 0.4 and 0.6) differ from those of steady
+films by up to 0.4, dampings of one grid and the next by up to 12 mesh widths."""
 BAR_CYCLES = 12
 """Cycles on the coarser grid of the error bars, from the film of the finer one."""
 
@@ -80,6 +84,12 @@ def film_dynamics(run: FilmSolver, settings: Dynamics) -> FilmDynamics:
         part = FRONT_BAR if run.finest.stencil.conserves else RESPONSE_BAR
         other = in_si(coarse.load_by_approach, force / film)
         bars = (part * np.abs(stiffness - other[0]), part * np.abs(damping - other[1]))
+    if run.finest.stencil.conserves:
+        least = [part * near.dx for part in LEAST_FRONT_BARS]
+        bars = (
+            np.maximum(bars[0], least[0] * np.abs(stiffness)),
+            np.maximum(bars[1], least[1] * np.abs(damping)),
+        )
     by_speed = in_si(found.load_by_speed, force / scales.speed)
     rolling = in_si(found.rolling_by_approach, tangent / film)
     rolling_by_speed = in_si(found.rolling_by_speed, tangent / scales.speed)

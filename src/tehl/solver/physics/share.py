@@ -384,8 +384,10 @@ class BoundaryContact(OilAlone):
 
     def opened(self, level: Carried) -> Array:
         """Return the change by which nodes that do not touch lose their contact pressure [-]."""
-        lost = np.maximum(level.film.asperity - self.carried, 0.0)
-        return np.where(self.touching, 0.0, -lost if self.carried else -level.film.asperity)
+        lost = level.film.asperity - self.carried
+        if isinstance(self.beneath, Summits):  # apart from the boundary film summits carry less
+            lost = np.maximum(lost, 0.0)
+        return np.where(self.touching, 0.0, -lost)
 
     def freeze(self, frozen: FlagArray) -> None:
         """Keep the oil pressure of the nodes that touch."""

@@ -103,8 +103,6 @@ class Run:
         self.scaled = attempt.run.hierarchy.scaled  # it knows the flooded film
         self._pose(attempt.run.finest.grid, smooth=smooth)
         settings: Sequence[Relaxation] = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
-        if problem.contact_film is not None:
-            settings = (FAST,)  # one attempt, by Newton's method
         self.stepper = Stepper(attempt.run, transient, settings)
         self.record = Record()
         self._note(0, self.heights.at(0.0), None)

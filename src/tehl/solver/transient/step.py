@@ -1,6 +1,7 @@
 """One time step: wedge and squeeze along the mean motion, solved by multigrid cycles.
 
-Films between surfaces that may touch through a boundary film are solved by Newton's method instead.
+Where surfaces may touch through a boundary film, a cycle has the contact too
+(`tehl.solver.physics.boundary_cycle`).
 
 With x in a_x and t in a_x / u_m a step advances by dt = s dx, s the stride, and wedge plus squeeze
 are one derivative of m = rho H along the mean motion, second-order backward:
@@ -32,11 +33,12 @@ from tehl.solver.transient.predictor import Predictor
 LARGEST_STEP_LOAD_ERROR = 1e-4
 """Load error accepted in a step."""
 LARGEST_REST = 0.01
-"""Residual of Newton's method accepted in a step, over the tolerance."""
+"""Residual accepted in a step where surfaces may touch, over the tolerance: single nodes that begin
+to touch change little."""
 LARGEST_STEP_KELVIN_CHANGE = 0.01
 """Change of temperature in the last cycle of a step, over the largest rise."""
-LEAST_CYCLES, MORE_STEPS = 2, 2
-"""Least cycles of a step; and most Newton steps over the most cycles."""
+LEAST_CYCLES = 2
+"""Least cycles of a step."""
 WEIGHT_OF_POINTS = 12.0
 """Weight of rho H in a step over the conductance from which nodes relax as points. A smooth error
 moves the film more than a point does, and grows where the conductance does not outweigh it: at
@@ -174,8 +176,7 @@ class Stepper:
     def _solve(self, name: str) -> StepEnd:
         """Perform cycles until the step has converged."""
         level, change = self.solver.finest, np.inf
-        # slower relaxations get more cycles, and nodes that begin and cease to touch more steps
-        times = 1 + self.setting
+        times = 1 + self.setting  # slower relaxations get more cycles
         if self.touching is not None:
             self.touching.begin()
         for number in range(1, times * self.transient.max_cycles + 1):
@@ -192,7 +193,7 @@ class Stepper:
                 raise StepError("diverged", change)
             done = change <= self.transient.tolerance and abs(error) <= LARGEST_STEP_LOAD_ERROR
             done = done and warmer <= max(LARGEST_STEP_KELVIN_CHANGE * rise, LEAST_KELVIN)
-            if self.touching is not None:  # single nodes that begin to touch change little
+            if self.touching is not None:
                 done = done and level.evaluate_residual() <= LARGEST_REST * self.transient.tolerance
             if number >= LEAST_CYCLES and done:
                 return StepEnd(cycles=number, change=change, load_error=error, smoother=name)
