@@ -15,7 +15,7 @@ from tehl.operators.reynolds import line_influence
 from tehl.post.waves import WaveResponse, wave_responses
 from tehl.roughness import Wave
 from tehl.solver.cycle.equations import Equations
-from tehl.solver.cycle.fas import Cycle, cycle
+from tehl.solver.cycle.fas import Cycle, Transfers, cycle
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import FAST, LineSmoother
 from tehl.solver.steady import finest_grid
@@ -107,11 +107,9 @@ class Visitor:
         if sweeps:
             self.path.append(self.number)
 
-    def restrict_to(self, coarse: "Visitor") -> None:
-        """Do nothing."""
 
-    def correct_from(self, coarse: "Visitor") -> None:
-        """Do nothing."""
+def nothing(fine: Visitor, coarse: Visitor) -> None:
+    """Transfer nothing."""
 
 
 def visits() -> Figure:
@@ -122,7 +120,7 @@ def visits() -> Figure:
     for count in (2, 3, 4):
         path.append(count - 1)
         for _ in range(2):
-            cycle(levels[:count], lambda: path.append(0), shape)
+            cycle(levels[:count], lambda: path.append(0), Transfers(*2 * (nothing,)), shape)
     figure = Figure(figsize=(7.2, 2.8), layout="constrained")
     axes = figure.add_subplot(yticks=range(4), xticks=[])
     axes.set_yticklabels(["17", "33", "65", "129"])

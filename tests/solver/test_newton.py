@@ -19,6 +19,7 @@ from tehl.solver.cycle.continuation import MOST_NEWTON_STEPS, RAISED_RESIDUAL, r
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.ladder import BETWEEN_ROUGH, Strategy
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.linearised import conductance_slopes, set_unknowns, unknowns
 from tehl.solver.cycle.newton import (
     LINEAR_RESIDUAL,
     RETRY_RESIDUAL,
@@ -28,6 +29,7 @@ from tehl.solver.cycle.newton import (
     limited,
 )
 from tehl.solver.cycle.relaxation import ROUGH
+from tehl.solver.cycle.start import pose_problem
 from tehl.solver.judging.convergence import DivergedError
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.rough import wavy
@@ -45,7 +47,7 @@ def level(mirror: bool = True, points: int = POINTS) -> Level:
     )
     made = Level(equations, ROUGH)
     run = solve(problem, Options(points=points, domain=DOMAIN))
-    made.pose_problem()
+    pose_problem(made)
     made.set_state(run.scaled.pressure[-grid.shape[0] :], run.rigid_approach)
     made.update()
     return made
@@ -59,7 +61,7 @@ def test_the_jacobian_is_the_derivative_of_the_operator(mirror: bool) -> None:
     rng = np.random.default_rng(1)
     change = np.where(fine.film.p > 0.05, rng.standard_normal(shape), 0.0)
     by_pressure, by_film = jacobian(
-        fine.film, fine.stencil, neighbours_of(fine.grid, fine.stencil), *fine.conductance_slopes()
+        fine.film, fine.stencil, neighbours_of(fine.grid, fine.stencil), *conductance_slopes(fine)
     )
     bent = np.empty(shape)
     fine.equations.deformation.deflect(change, bent)
@@ -109,10 +111,10 @@ def test_a_step_that_does_not_reduce_the_residual_is_undone_and_raises() -> None
     newton = Newton(fine, Grid(nx=17, ny=17, domain=DOMAIN, mirror=True))
     fine.set_state(1.05 * fine.film.p, fine.rigid_approach)
     fine.update()
-    before = fine.unknowns()
+    before = unknowns(fine)
     with pytest.raises(DivergedError):
         newton.line_search(np.append(np.ones(before.size - 1), 1.0))
-    np.testing.assert_array_equal(fine.unknowns(), before)
+    np.testing.assert_array_equal(unknowns(fine), before)
 
 
 def test_a_step_that_fails_is_repeated_with_more_accurate_linear_equations(
@@ -181,12 +183,12 @@ def test_the_coarse_equations_are_not_singular_where_few_nodes_are_wet() -> None
 def test_the_vector_of_unknowns_restores_pressure_and_approach() -> None:
     """As one array."""
     fine = level()
-    before = fine.unknowns()
+    before = unknowns(fine)
     film = fine.film.h.copy()
     fine.set_state(np.zeros_like(fine.film.p), 7.0)
     fine.update()
-    fine.set_unknowns(before)
-    np.testing.assert_allclose(fine.unknowns(), before, rtol=1e-15)
+    set_unknowns(fine, before)
+    np.testing.assert_allclose(unknowns(fine), before, rtol=1e-15)
     fine.update()
     np.testing.assert_allclose(fine.film.h, film, atol=1e-14)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tehl.base.typing import Array
-from tehl.solver.cycle.fas import Cycle, cycle
+from tehl.solver.cycle.fas import Cycle, Transfers, cycle
 from tehl.solver.cycle.fmg import full_multigrid
 
 V11 = Cycle(kind="V", pre_sweeps=1, post_sweeps=1, extra_sweeps=0)
@@ -43,18 +43,23 @@ class PoissonLevel:
                 change = 0.25 * self.h**2 * self.residual()
                 self.u[colour] += change[colour]
 
-    def restrict_to(self, coarse: "PoissonLevel") -> None:
-        """A_c(u_c) = A_c(I u) + R (b - A(u)), I injection, R full weighting."""
-        coarse.u[:] = coarse.restricted[:] = self.u[::2, ::2]
-        r, weighted = self.residual(), np.zeros_like(coarse.u)
-        sides = r[1:-2:2, 2:-1:2] + r[3::2, 2:-1:2] + r[2:-1:2, 1:-2:2] + r[2:-1:2, 3::2]
-        corners = r[1:-2:2, 1:-2:2] + r[3::2, 3::2] + r[1:-2:2, 3::2] + r[3::2, 1:-2:2]
-        weighted[1:-1, 1:-1] = (4.0 * r[2:-1:2, 2:-1:2] + 2.0 * sides + corners) / 16.0
-        coarse.b[:] = coarse.laplacian() + weighted
 
-    def correct_from(self, coarse: "PoissonLevel") -> None:
-        """u += P (u_c - I u), P bilinear."""
-        self.u += bilinear(coarse.u - coarse.restricted)
+def restrict(fine: PoissonLevel, coarse: PoissonLevel) -> None:
+    """A_c(u_c) = A_c(I u) + R (b - A(u)), I injection, R full weighting."""
+    coarse.u[:] = coarse.restricted[:] = fine.u[::2, ::2]
+    r, weighted = fine.residual(), np.zeros_like(coarse.u)
+    sides = r[1:-2:2, 2:-1:2] + r[3::2, 2:-1:2] + r[2:-1:2, 1:-2:2] + r[2:-1:2, 3::2]
+    corners = r[1:-2:2, 1:-2:2] + r[3::2, 3::2] + r[1:-2:2, 3::2] + r[3::2, 1:-2:2]
+    weighted[1:-1, 1:-1] = (4.0 * r[2:-1:2, 2:-1:2] + 2.0 * sides + corners) / 16.0
+    coarse.b[:] = coarse.laplacian() + weighted
+
+
+def correct(fine: PoissonLevel, coarse: PoissonLevel) -> None:
+    """u += P (u_c - I u), P bilinear."""
+    fine.u += bilinear(coarse.u - coarse.restricted)
+
+
+POISSON = Transfers(restrict, correct)
 
 
 def bilinear(values: Array) -> Array:
@@ -85,7 +90,7 @@ def test_a_v_cycle_reduces_the_residual_by_ten_on_every_grid(intervals: int) -> 
     levels[-1].u[1:-1, 1:-1] = np.random.default_rng(1).standard_normal((intervals - 1,) * 2)
     norms = []
     for _ in range(8):
-        cycle(levels, lambda: levels[0].relax(1), V11)
+        cycle(levels, lambda: levels[0].relax(1), POISSON, V11)
         norms.append(np.linalg.norm(levels[-1].residual()))
     assert (norms[-1] / norms[2]) ** (1 / 5) < 0.13
 
@@ -98,7 +103,7 @@ def test_w_and_f_cycles_converge_at_least_as_fast() -> None:
         shape = Cycle(kind=kind, pre_sweeps=1, post_sweeps=1, extra_sweeps=0)
         norms = []
         for _ in range(6):
-            cycle(levels, lambda levels=levels: levels[0].relax(1), shape)
+            cycle(levels, lambda levels=levels: levels[0].relax(1), POISSON, shape)
             norms.append(np.linalg.norm(levels[-1].residual()))
         rates[kind] = (norms[-1] / norms[1]) ** (1 / 4)
     assert rates["W"] < rates["V"] * 1.02
@@ -117,7 +122,7 @@ def test_full_multigrid_solves_to_the_discretisation_error_in_one_cycle_per_leve
         def improve(upto: list[PoissonLevel], visits: list[int] = visits) -> None:
             upto[-1].b[1:-1, 1:-1] = (5.0 * np.pi**2 * exact(upto[-1]))[1:-1, 1:-1]
             visits.append(len(upto))
-            cycle(upto, lambda: upto[0].relax(1), V11)
+            cycle(upto, lambda: upto[0].relax(1), POISSON, V11)
 
         def start(coarse: PoissonLevel, fine: PoissonLevel) -> None:
             fine.u[:] = bilinear(coarse.u)
@@ -126,7 +131,7 @@ def test_full_multigrid_solves_to_the_discretisation_error_in_one_cycle_per_leve
         assert visits == list(range(2, len(levels) + 1))
         found = levels[-1].u.copy()
         for _ in range(12):
-            cycle(levels, lambda levels=levels: levels[0].relax(1), V11)
+            cycle(levels, lambda levels=levels: levels[0].relax(1), POISSON, V11)
         discretisation = np.abs(levels[-1].u - exact(levels[-1])).max()
         assert np.abs(found - levels[-1].u).max() < 0.5 * discretisation
         errors.append(discretisation)

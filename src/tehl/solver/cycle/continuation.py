@@ -15,6 +15,7 @@ from tehl.base.typing import Array
 from tehl.operators.heights import Heights
 from tehl.operators.transfer import refine
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.linearised import set_unknowns, unknowns
 from tehl.solver.cycle.start import from_dry_pressure
 from tehl.solver.judging.convergence import DivergedError
 
@@ -174,17 +175,17 @@ def raise_by_newton(
     DivergedError
         When an increment of `LEAST_INCREMENT` does not converge.
     """
-    before, known, size = None, (0.0, level.unknowns()), FIRST_INCREMENT
+    before, known, size = None, (0.0, unknowns(level)), FIRST_INCREMENT
     while known[0] < 1.0:
         part = min(known[0] + size, 1.0)
         level.apply_heights(part)
-        level.set_unknowns(known[1] if before is None else _extrapolate(before, known, part))
+        set_unknowns(level, known[1] if before is None else _extrapolate(before, known, part))
         steps = _steps_to(RAISED_RESIDUAL, iterate)
         if steps is None:
             refresh()  # the preconditioner belongs to the film that diverged
             size *= INCREMENT_FACTOR
         else:
-            before, known = known, (part, level.unknowns())
+            before, known = known, (part, unknowns(level))
             size *= 1.5 if steps <= QUICK_STEPS else 0.7 if steps > SLOW_STEPS else 1.0
             if finest and part < 1.0 and not level.film.h.min() > 0.0:
                 raise TouchingError(part)

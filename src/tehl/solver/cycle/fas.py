@@ -5,7 +5,7 @@ Brandt 1977; Trottenberg, Oosterlee and Schüller 2001, section 5.3; Venner and 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol, Self, TypeVar
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -31,23 +31,30 @@ class Cycle:
 
 
 class CycleLevel(Protocol):
-    """Operations of a level in the cycle."""
+    """Operation of a level in the cycle."""
 
     def relax(self, sweeps: int) -> None:
         """Smooth the error by relaxation sweeps."""
-
-    def restrict_to(self, coarse: Self) -> None:
-        """Pose the FAS problem  A_c(u_c) = A_c(I u) + R (b - A(u))  on the next coarser level."""
-
-    def correct_from(self, coarse: Self) -> None:
-        """Add the interpolated change of the coarser level:  u += P (u_c - I u)."""
 
 
 AnyLevel = TypeVar("AnyLevel", bound=CycleLevel)
 
 
+class Transfers(NamedTuple, Generic[AnyLevel]):
+    """Transfers between a level u and the next coarser one u_c, called with both in this order."""
+
+    restrict: Callable[[AnyLevel, AnyLevel], None]
+    """Poses the FAS problem  A_c(u_c) = A_c(I u) + R (b - A(u))  on the coarser one."""
+    correct: Callable[[AnyLevel, AnyLevel], None]
+    """Adds the interpolated change of the coarser one:  u += P (u_c - I u)."""
+
+
 def cycle(
-    levels: Sequence[AnyLevel], solve_coarsest: Callable[[], None], shape: Cycle, extra: int = 0
+    levels: Sequence[AnyLevel],
+    solve_coarsest: Callable[[], None],
+    transfers: Transfers[AnyLevel],
+    shape: Cycle,
+    extra: int = 0,
 ) -> None:
     """Perform one FAS cycle on ``levels`` in place.
 
@@ -57,6 +64,8 @@ def cycle(
         Coarsest first; the last one holds the problem.
     solve_coarsest : callable
         Improves the coarsest level: an exact solve, or a Newton step.
+    transfers : Transfers
+        Between two levels.
     shape, extra : Cycle, int
         Order of visits and sweeps, and sweeps added on this level.
     """
@@ -66,8 +75,8 @@ def cycle(
         return
     coarse = coarser[-1]
     fine.relax(shape.pre_sweeps + extra)
-    fine.restrict_to(coarse)
+    transfers.restrict(fine, coarse)
     for visit in shape.coarse_visits(len(coarser)):
-        cycle(coarser, solve_coarsest, visit, shape.extra_sweeps)
-    fine.correct_from(coarse)
+        cycle(coarser, solve_coarsest, transfers, visit, shape.extra_sweeps)
+    transfers.correct(fine, coarse)
     fine.relax(shape.post_sweeps + extra)

@@ -27,6 +27,7 @@ from tehl.solver.judging.convergence import (
     film_converged,
 )
 from tehl.solver.judging.goal import Goal, estimated_errors
+from tehl.solver.judging.measures import is_resolved, nodal_film
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.physics.boundary_contact import TouchingNewton
 
@@ -173,7 +174,7 @@ class FilmSolver(GridIteration):
         if not self.goal.is_open:
             return False
         errors, part = self.errors(), self.minimum_part()
-        resolved = self.finest.is_resolved
+        resolved = is_resolved(self.finest)
         if not self._has_converged():
             resolved = resolved and self.goal.is_met(errors, part, TOO_COARSE)
             return (force or not resolved) and self.goal.may_try(self.finest)
@@ -188,7 +189,7 @@ class FilmSolver(GridIteration):
         # roughness, also such that moves in later, needs the planned grid
         if self.hierarchy.scaled.problem.is_rough or self.coupling.is_pending:
             return False
-        if not levels[-1].is_resolved:
+        if not is_resolved(levels[-1]):
             return False
         return self.goal.is_met(self.errors()) or not self.goal.may_refine(levels[-1])
 
@@ -215,7 +216,7 @@ class FilmSolver(GridIteration):
                 newton.step()
         coarsest.update()
         self.traces.append(GridTrace())
-        self.traces[0].note(*coarsest.nodal_film())
+        self.traces[0].note(*nodal_film(coarsest))
 
     def _start(self, coarse: Level, fine: Level) -> None:
         """Interpolate the coarser solution, or restart from the smooth film or the Hertz pressure.

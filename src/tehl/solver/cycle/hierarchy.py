@@ -18,8 +18,10 @@ from tehl.operators.influence import dense_matrix
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.linearised import conductance_slopes
 from tehl.solver.cycle.relaxation import Relaxation
-from tehl.solver.cycle.start import from_coarser, from_dry_pressure
+from tehl.solver.cycle.start import from_coarser, from_dry_pressure, pose_problem
+from tehl.solver.cycle.transfers import TRANSFERS
 from tehl.solver.judging.convergence import RUNAWAY
 
 UNRESOLVED = 0.5
@@ -101,7 +103,7 @@ class CoarsestSolver:
     def _linearised(self) -> Coarse:
         """Return film and conductance with the derivatives of the conductance."""
         film, factors, answer = self.level.film, self.level.factors, self.level.share.response
-        by_pressure, by_film = self.level.conductance_slopes()
+        by_pressure, by_film = conductance_slopes(self.level)
         ones = np.ones_like(film.p)
         stretch_x, stretch_y = (
             (ones, ones) if factors is None else (factors.stretch_x, factors.stretch_y)
@@ -198,7 +200,7 @@ class Hierarchy:
         )
         # cheap on coarser grids; with 2 + 2 sweeps the film of M = 200, r = 0.2 oscillates
         extra = int(conserves and levels[-1] is not self.finest)
-        cycle(levels, self.coarsest.step, shape, extra)
+        cycle(levels, self.coarsest.step, TRANSFERS, shape, extra)
 
     def salvage(self) -> None:
         """Interpolate the finest valid state of a coarser grid to the finest grid."""
@@ -211,5 +213,5 @@ class Hierarchy:
             from_dry_pressure(self.levels[0], self.expected_film)
         for coarse, fine in pairwise(self.levels[start:]):
             from_coarser(coarse, fine)
-        self.finest.pose_problem()
+        pose_problem(self.finest)
         self.finest.update()

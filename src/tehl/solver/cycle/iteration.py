@@ -21,7 +21,9 @@ from tehl.solver.cycle.continuation import (
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.linearised import set_unknowns, unknowns
 from tehl.solver.cycle.newton import Newton
+from tehl.solver.cycle.start import pose_problem
 from tehl.solver.judging.balance import Balance
 from tehl.solver.judging.convergence import (
     LARGEST_CYCLE_CHANGE,
@@ -36,7 +38,7 @@ from tehl.solver.judging.convergence import (
 )
 from tehl.solver.judging.extrapolation import outputs_of
 from tehl.solver.judging.goal import Goal
-from tehl.solver.judging.measures import film_numbers, measured
+from tehl.solver.judging.measures import film_numbers, measured, nodal_film
 from tehl.solver.monitor import Monitor
 from tehl.solver.physics.boundary_contact import (
     BALANCED_OVER_TOLERANCE,
@@ -126,7 +128,7 @@ class GridIteration:
     def _iterate(self, levels: Sequence[Level]) -> None:
         """Iterate on the last of ``levels`` until it has converged, stalled or used its cycles."""
         fine, finest = levels[-1], len(levels) == len(self.levels)
-        fine.pose_problem()
+        pose_problem(fine)
         fine.update()
         done = self._start_heat(levels)
         by_cycles = fine.equations.contact_film is not None and not self.strategy.newton
@@ -143,20 +145,20 @@ class GridIteration:
         step = newton.step if newton else self._cycle(levels)
         begins = len(levels) - 1 == self.roughness.first  # the first level with the heights
         done += self._raise_heights(levels, newton) if begins else 0
-        trace.note(*fine.nodal_film())
+        trace.note(*nodal_film(fine))
         most = self._most_steps(levels, newton, anderson)
         for number in range(1, most + 1):
-            before = fine.unknowns() if anderson else None
+            before = unknowns(fine) if anderson else None
             report = self._iteration(levels, step, number + done)
             trace.add(report)
             if self._is_done(trace, finest=finest):
                 return
             if anderson is not None and before is not None:
-                combined = anderson.combine(before, fine.unknowns())
+                combined = anderson.combine(before, unknowns(fine))
                 if fine.equations.asperities is None:
                     # a combination must not wet the nodes that the last cycle cavitated
                     combined[:-1][fine.film.p.ravel() <= 0.0] = 0.0
-                fine.set_unknowns(combined)
+                set_unknowns(fine, combined)
 
     def _most_steps(
         self, levels: Sequence[Level], newton: Newton | None, anderson: Anderson | None
@@ -352,7 +354,7 @@ class GridIteration:
     ) -> CycleReport:
         residual = level.evaluate_residual()
         np.subtract(level.pressure, before, out=before)
-        central, minimum = level.nodal_film()
+        central, minimum = nodal_film(level)
         report = CycleReport(
             points=level.grid.points,
             cycle=number,

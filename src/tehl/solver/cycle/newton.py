@@ -29,7 +29,13 @@ from tehl.estimate.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.influence import dense_matrix, influence_of
 from tehl.operators.jacobian import Neighbours, interpolation, jacobian, neighbours_of, rows
-from tehl.solver.cycle.level import APPROACH_WEIGHT, Level
+from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.linearised import (
+    APPROACH_WEIGHT,
+    conductance_slopes,
+    set_unknowns,
+    unknowns,
+)
 from tehl.solver.judging.convergence import DivergedError
 
 LINEAR_RESIDUAL, RETRY_RESIDUAL = 0.03, 0.001
@@ -115,16 +121,16 @@ class Newton:
 
     def line_search(self, change: Array) -> float:
         """Halve the step along ``change`` until the residual decreases; return the part taken."""
-        level, start = self.level, self.level.unknowns()
+        level, start = self.level, unknowns(self.level)
         residual = level.evaluate_residual()
         (step, share), part = limited(change), 1.0 if np.isfinite(change).all() else 0.0
         while part > SHORTEST_LINE_STEP:
-            level.set_unknowns(start + part * step)
+            set_unknowns(level, start + part * step)
             level.update()
             if level.evaluate_residual() < (1.0 - DESCENT * part * share) * residual:
                 return part * share
             part *= 0.5
-        level.set_unknowns(start)
+        set_unknowns(level, start)
         level.update()
         if residual < IRREDUCIBLE_RESIDUAL:
             return 1.0
@@ -154,7 +160,7 @@ class System:
         reynolds.diagonal(film, stencil, level.equations.influence.self_film, diagonal)
         self.scale = np.where(self.free, 1.0 / np.where(self.free, diagonal.ravel(), 1.0), 0.0)
         by_pressure, by_film = jacobian(
-            film, stencil, newton.neighbours, *level.conductance_slopes()
+            film, stencil, newton.neighbours, *conductance_slopes(level)
         )
         self.by_pressure = csr_matrix(rows(self.scale) @ by_pressure @ self.kept)
         self.by_film = csr_matrix(rows(self.scale) @ by_film)
@@ -171,7 +177,7 @@ class System:
         return np.append(kept, self.newton.load_weights @ pressure)
 
     def solve(self, preconditioner: "Preconditioner", accuracy: float) -> Array:
-        """Return the Newton step of `Level.unknowns`, by GCROT.
+        """Return the Newton step of `unknowns`, by GCROT.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""First approximations on a level: dry pressure, the coarser solution, a similar contact."""
+"""Problems on a level, and its first approximations: dry, coarser, or of a similar contact."""
 
 import numpy as np
 
@@ -13,6 +13,39 @@ LEAST_GUESS_GAIN = 0.1
 Full multigrid starts near the solution, which few neighbours of a study beat."""
 
 
+def pose_problem(level: Level) -> None:
+    """Set the right-hand sides of a steady problem: f = 0, g = gap - heights, w the load."""
+    level.sources.reynolds[:] = 0.0
+    level.sources.load = level.equations.target
+    level.is_finest = True
+    level.share.stays = False
+    level.apply_heights(1.0)
+    level.smoother.frozen[:] = 0  # the finest grid decides where the film ends
+
+
+def pose_step(level: Level, history: Array, heights: Array, load: float) -> None:
+    """Set the right-hand sides of a time step: f contains the history.
+
+    Parameters
+    ----------
+    level : Level
+        Its film is evaluated.
+    history : array of ``grid.shape``
+        Contribution of previous films to wedge and squeeze [-].
+    heights : array of ``grid.shape``
+        Heights of both surfaces at the new time [-].
+    load : float
+        Load over that of the contact [-].
+    """
+    level.sources.history, level.heights = history, heights
+    level.sources.load = load * level.equations.groups.shape.load
+    level.is_finest = True
+    level.apply_heights(1.0)
+    level.smoother.frozen[:] = 0
+    level.update()
+    level.write_source()
+
+
 def from_dry_pressure(level: Level, expected_film: float) -> None:
     """Start from the Hertz pressure, or of dry asperities, at the expected central film.
 
@@ -23,7 +56,7 @@ def from_dry_pressure(level: Level, expected_film: float) -> None:
     expected_film : float
         H in the middle [-].
     """
-    level.pose_problem()
+    pose_problem(level)
     level.share.start(level, expected_film)
 
 
@@ -52,7 +85,7 @@ def from_guess(level: Level, guess: Solution | None) -> None:
     """
     if guess is None or level.share.bounds_film:
         return
-    level.pose_problem()
+    pose_problem(level)
     here, before = level.state(), _distance(level)
     level.set_state(_values_on(level.grid, guess, guess.scaled.pressure), guess.rigid_approach)
     if guess.asperities is not None:

@@ -138,3 +138,13 @@ def _rises(state: FilmState) -> dict[str, float]:
     middle = np.ascontiguousarray(np.einsum("k,xky->yx", weights, temperature))
     largest = float(temperature.max(axis=1)[inside].max()) - inlet
     return Rises(largest, central_value(state.grid, middle) - inlet, first, second)._asdict()
+
+
+def is_resolved(level: Level) -> bool:
+    """Return whether the film exceeds the floor of the conductance, or is the boundary film."""
+    return level.share.bounds_film or float(level.film.h.min()) > level.equations.floor
+
+
+def nodal_film(level: Level) -> tuple[float, float]:
+    """Return central and smallest nodal film of a level [-]."""
+    return central_value(level.grid, level.film.h), float(level.film.h.min())

@@ -29,6 +29,7 @@ from tehl.solver.judging.diagnosis import (
     thinnest,
 )
 from tehl.solver.judging.film_summary import film_summary
+from tehl.solver.judging.measures import is_resolved
 from tehl.solver.judging.outputs import asperity_balance, contact_balance, heat_balance
 
 CONVERGED = Status(kind="converged")
@@ -115,7 +116,7 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     """Judge whether the film between smooth surfaces is positive and resolved by the grid."""
     level, points = run.finest, run.finest.grid.points
     smallest = level.film.h.min()
-    if not level.is_resolved:
+    if not is_resolved(level):
         return _failed(
             "film_not_positive",
             f"The discrete film is not positive on {grid_size(points)} (smallest H = "

@@ -20,6 +20,7 @@ from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
 from tehl.operators.jacobian import jacobian, neighbours_of
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.linearised import conductance_slopes
 from tehl.solver.cycle.newton import one_thread
 from tehl.solver.judging.convergence import DivergedError
 from tehl.solver.physics.boundary_system import (
@@ -151,7 +152,7 @@ def close_balance(level: Level) -> bool:
             film,
             level.stencil,
             transport(level, neighbours),
-            *level.conductance_slopes(),
+            *conductance_slopes(level),
         )
         nodes = np.nonzero(free.ravel())[0]
         matrix = csc_matrix(by_pressure[nodes][:, nodes])

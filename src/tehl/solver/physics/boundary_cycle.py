@@ -26,6 +26,7 @@ from tehl.base.typing import Array
 from tehl.operators.deformation import FftFlattening
 from tehl.operators.jacobian import jacobian, neighbours_of
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.linearised import conductance_slopes
 from tehl.solver.cycle.newton import one_thread
 from tehl.solver.cycle.relaxation import LineSmoother, Relaxation
 from tehl.solver.judging.convergence import DivergedError
@@ -241,7 +242,7 @@ class TouchingCycle:
         level, film = self.level, self.level.film
         nodes = np.nonzero((self.share.touching & (film.p > 0.0)).ravel())[0]
         neighbours = transport(level, self.neighbours)
-        slopes = level.conductance_slopes()
+        slopes = conductance_slopes(level)
         by_pressure, _ = jacobian(film, level.stencil, neighbours, *slopes)
         change: Array = np.zeros(film.p.size)
         with warnings.catch_warnings(action="ignore", category=MatrixRankWarning):

@@ -25,6 +25,7 @@ from tehl.kernels import reynolds
 from tehl.operators.deformation import FftFlattening
 from tehl.operators.jacobian import Neighbours, flux_difference, jacobian, neighbour, rows
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.linearised import conductance_slopes
 from tehl.solver.cycle.newton import ROUNDS, VECTORS, Newton
 from tehl.solver.physics.share import contact_of
 
@@ -75,7 +76,7 @@ class TouchingSystem:
             film,
             level.stencil,
             transport(level, operators.neighbours),
-            *level.conductance_slopes(),
+            *conductance_slopes(level),
         )
         by_film = csr_matrix(by_film @ rows((~self.touching).astype(float)))
         self_film = level.equations.influence.self_film

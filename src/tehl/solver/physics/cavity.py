@@ -40,6 +40,7 @@ class Wetted(Protocol):
     residual: Array
     share: OilAlone
     is_finest: bool
+    is_stale: bool
 
     @property
     def grid(self) -> Grid:
@@ -55,9 +56,6 @@ class Wetted(Protocol):
 
     def update(self) -> None:
         """Evaluate the film."""
-
-    def touch(self) -> None:
-        """Mark the film as stale."""
 
 
 class ZeroPressure:
@@ -195,7 +193,7 @@ class Conserving(ZeroPressure):
             if rests and number >= least:
                 break
         smoother.frozen[:], smoother.ends[:] = 0, level.grid.nx - 1
-        level.touch()
+        level.is_stale = True
         return rests
 
 

@@ -16,6 +16,7 @@ from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.iteration import coarse_grid
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import one_thread
+from tehl.solver.cycle.start import pose_problem
 from tehl.solver.physics.response import FilmResponse, Solutions
 
 COARSE_RESPONSE = 17
@@ -204,7 +205,7 @@ def _coarse_changes(run: FilmSolver, omegas: Array, excess: Array | None) -> Cha
         return None
     level = levels[-1]
     level.set_state(fine.film.p[::2, ::2], fine.rigid_approach)
-    level.pose_problem()
+    pose_problem(level)
     if excess is not None:
         level.update()
         level.write_source()

@@ -28,6 +28,7 @@ from tehl.estimate.grid import Grid
 from tehl.operators.far_field import EdgeSlopes, FarField
 from tehl.operators.jacobian import Cavity, flux_difference, jacobian, rows
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.linearised import conductance_slopes
 from tehl.solver.cycle.newton import Newton
 from tehl.solver.physics.cavity import oil_flow
 
@@ -102,7 +103,7 @@ class FilmResponse:
             flux = flux_difference(film, stencil, level.grid)
             neighbours, oil = neighbours._replace(upstream=flux), oil_flow(level)[0].ravel()
             density, denser = density * cavity.full, np.where(cavity.full > 0.0, denser, 1.0)
-        slopes = level.conductance_slopes()
+        slopes = conductance_slopes(level)
         by_pressure, by_film = jacobian(film, stencil, neighbours, *slopes, cavity)
         if cavity is not None:
             along, swept = moving_front(level)

@@ -18,6 +18,7 @@ from tehl.kernels.properties import Factors, Film
 from tehl.operators.film import dry_pressure
 from tehl.operators.summits import AsperityTable
 from tehl.solver.cycle.equations import Equations, Sources
+from tehl.solver.cycle.relaxation import Smoother
 from tehl.solver.judging.film_summary import central_value
 
 FILM_PER_PRESSURE = 1.5
@@ -41,10 +42,7 @@ class Carried(Protocol):
     is_finest: bool
     sources: Sources
     factors: Factors | None
-
-    @property
-    def frozen(self) -> FlagArray:
-        """Nodes whose oil pressure stays."""
+    smoother: Smoother
 
     def update(self) -> None:
         """Evaluate the film."""
@@ -202,7 +200,7 @@ class Summits(OilAlone):
 
     def follow(self, level: Carried, reach: float) -> None:
         """Evaluate the laws; the sum of both pressures stays."""
-        self.follow_at(level, reach, level.separation, level.frozen)
+        self.follow_at(level, reach, level.separation, level.smoother.frozen)
 
     def follow_at(self, level: Carried, reach: float, separation: Array, frozen: FlagArray) -> None:
         """Evaluate the laws at a separation; the oil of the ``frozen`` nodes stays as well."""
@@ -361,7 +359,7 @@ class BoundaryContact(OilAlone):
             return
         film = level.film
         before = film.asperity[touching]
-        frozen = (level.frozen.astype(bool) | touching).astype(np.uint8)
+        frozen = (level.smoother.frozen.astype(bool) | touching).astype(np.uint8)
         self.beneath.follow_at(level, reach, self.held, frozen)
         film.asperity[touching] = before
 

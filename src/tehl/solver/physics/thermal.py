@@ -170,7 +170,7 @@ class Coupling:
             return
         self.state = None
         for level in levels:
-            level.uncouple()
+            level.couple(None)
 
     def pack(self, levels: Sequence[Level]) -> dict[str, Array]:
         """Return temperature, stress, fluxes and factors as arrays by name, for a checkpoint."""

@@ -22,7 +22,7 @@ from tehl.result.transient import StepReport, TransientSolution
 from tehl.solver.cost import Clock
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
-from tehl.solver.judging.measures import mid_film_traction
+from tehl.solver.judging.measures import is_resolved, mid_film_traction
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import Attempt, finest_grid, try_strategies
 from tehl.solver.transient.checks import check_load, check_stride, check_waves
@@ -149,7 +149,7 @@ class Run:
             except StepError as error:
                 return self.step_not_settled(error, time_now)
             self._note(step, heights, end)
-            if not self.level.is_resolved:
+            if not is_resolved(self.level):
                 return self._touching(time_now)
             monitor.step(self._report(step, end))
             if keep is not None:

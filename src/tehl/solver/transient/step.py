@@ -25,6 +25,8 @@ from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import Relaxation
+from tehl.solver.cycle.start import pose_step
+from tehl.solver.cycle.transfers import TRANSFERS
 from tehl.solver.judging.convergence import LEAST_KELVIN, RUNAWAY
 from tehl.solver.physics.boundary_cycle import TouchingCycle
 from tehl.solver.physics.cavity import oil_flow
@@ -88,7 +90,7 @@ class Stepper:
         solver.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
         solver.coupling.begin_transient(solver.levels, self.time_step)
         self.method: Callable[[], None] = partial(
-            cycle, solver.levels, solver.hierarchy.coarsest.step, SHAPE
+            cycle, solver.levels, solver.hierarchy.coarsest.step, TRANSFERS, SHAPE
         )
         self.touching: TouchingCycle | None = None
         if level.equations.contact_film is not None:
@@ -126,7 +128,7 @@ class Stepper:
                 self.solver.coupling.revert(self.solver.levels)
             elif self.touching is None:
                 level.set_pressure(self.predictor.onward())
-            level.pose_step(history + self.squeeze.onward(), heights, load)
+            pose_step(level, history + self.squeeze.onward(), heights, load)
             try:
                 end = self._solve(self.settings[number].name)
             except ArithmeticError as error:  # also from a kernel, if the film is NaN

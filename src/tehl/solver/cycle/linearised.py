@@ -1,0 +1,40 @@
+"""A level as Newton's methods see it: a vector of unknowns, and slopes of the conductance."""
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.kernels.properties import Film
+from tehl.solver.cycle.level import Level
+
+PRESSURE_STEP = 1e-6
+"""Step of the derivative of the conductance by pressure; its error is of this relative size."""
+APPROACH_WEIGHT = 10.0
+"""Weight of the rigid approach among the pressures in the vector of unknowns."""
+
+
+def unknowns(level: Level) -> Array:
+    """Return pressure and weighted rigid approach of a level as one vector, (n + 1,)."""
+    return np.append(level.pressure.ravel(), APPROACH_WEIGHT * level.rigid_approach)
+
+
+def set_unknowns(level: Level, vector: Array) -> None:
+    """Set pressure and rigid approach from a vector; negative pressures are clipped.
+
+    Parameters
+    ----------
+    level, vector : Level, (n + 1,) array
+        As `unknowns` takes and returns them.
+    """
+    level.set_pressure(np.maximum(vector[:-1].reshape(level.grid.shape), 0.0))
+    level.rigid_approach = float(vector[-1]) / APPROACH_WEIGHT
+
+
+def conductance_slopes(level: Level) -> tuple[Array, Array]:
+    """Return d eps/dP and d eps/dH at the present pressure and film, each ``grid.shape``."""
+    film = level.film
+    eps, rho, drho, eps_x, eps_y = (np.empty_like(film.p) for _ in range(5))
+    shifted = Film(film.p + PRESSURE_STEP, film.h, eps, rho, drho, eps_x, eps_y)._replace(
+        channel=film.channel, across=film.across, carried=film.carried
+    )
+    level.update_properties(shifted)
+    return (shifted.eps - film.eps) / PRESSURE_STEP, level.share.widening(level)
