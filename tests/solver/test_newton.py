@@ -14,7 +14,7 @@ from tehl.operators.flow import flow_table
 from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
 from tehl.result.solution import Status
 from tehl.solver import steady
-from tehl.solver.cycle import iteration
+from tehl.solver.cycle import methods
 from tehl.solver.cycle.continuation import MOST_NEWTON_STEPS, RAISED_RESIDUAL, raise_by_newton
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.ladder import BETWEEN_ROUGH, Strategy
@@ -226,7 +226,7 @@ def test_heights_are_raised_on_the_finest_grid_if_the_start_from_the_coarser_fil
             raise DivergedError
         return search(self, change)
 
-    monkeypatch.setattr(iteration, "raise_by_newton", noted)
+    monkeypatch.setattr(methods, "raise_by_newton", noted)
     plain = finished(problem, options)
     assert raised == [(33, False)]
     monkeypatch.setattr(Newton, "line_search", failing)

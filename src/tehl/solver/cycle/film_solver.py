@@ -14,9 +14,10 @@ from tehl.result.solution import Solution
 from tehl.solver.cycle.continuation import RAISED_RESIDUAL, TouchingError
 from tehl.solver.cycle.fmg import full_multigrid
 from tehl.solver.cycle.hierarchy import Hierarchy
-from tehl.solver.cycle.iteration import MOST_CYCLES, GridIteration
+from tehl.solver.cycle.iteration import GridIteration
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.methods import MOST_CYCLES, solve_coarsest
 from tehl.solver.cycle.start import from_coarser, from_dry_pressure, from_guess
 from tehl.solver.judging.balance import LARGEST_OIL_ERROR
 from tehl.solver.judging.convergence import (
@@ -29,11 +30,7 @@ from tehl.solver.judging.convergence import (
 from tehl.solver.judging.goal import Goal, estimated_errors
 from tehl.solver.judging.measures import is_resolved, nodal_film
 from tehl.solver.monitor import SILENT, Monitor
-from tehl.solver.physics.boundary_contact import TouchingNewton
 
-FIRST_STEPS, TOUCHING_STEPS = 6, 20
-"""Newton steps on the coarsest grid at the start, and where surfaces may touch; that they may not
-converge does no harm."""
 TOO_COARSE = 0.5
 """Error bar of the film beyond which the grid may be why the cycles do not converge."""
 GRIDS_WITHOUT_BARS = 2
@@ -163,8 +160,7 @@ class FilmSolver(GridIteration):
         if not self.roughness.is_rough:
             return 1.0
         part = max(float(self.finest.film.h.min()), 0.0) / self.hierarchy.expected_film
-        # a boundary film may be thicker than any that the oil would form
-        return part if self.finest.equations.contact_film is None else min(part, 1.0)
+        return min(part, self.finest.share.largest_part)
 
     def _needs_finer_grid(self, *, force: bool) -> bool:
         """Return whether a finer grid follows: the film is not accurate, or does not converge.
@@ -207,14 +203,7 @@ class FilmSolver(GridIteration):
         """Solve on the coarsest grid by Newton's method, from the Hertz pressure."""
         coarsest = self.levels[0]
         from_dry_pressure(coarsest, self.hierarchy.expected_film)
-        if coarsest.equations.contact_film is None or not self.strategy.newton:
-            for _ in range(FIRST_STEPS):
-                self.hierarchy.coarsest.step()
-        else:
-            newton = TouchingNewton(coarsest, coarsest.grid, order=1)
-            for _ in range(TOUCHING_STEPS):
-                newton.step()
-        coarsest.update()
+        solve_coarsest(self.hierarchy, newton=self.strategy.newton)
         self.traces.append(GridTrace())
         self.traces[0].note(*nodal_film(coarsest))
 

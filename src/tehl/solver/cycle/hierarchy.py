@@ -110,7 +110,7 @@ class CoarsestSolver:
         )
         if film.across.size:
             stretch_y = stretch_y * film.across
-        rho = film.rho if self.level.equations.asperities is None else film.rho * film.opening
+        rho = film.rho * film.opening if film.opening.size else film.rho
         return Coarse(
             *film[:3],
             rho=rho,
@@ -188,7 +188,7 @@ class Hierarchy:
     def cycle(self, levels: Sequence[Level]) -> None:
         """Perform one multigrid cycle on ``levels``."""
         options, mesh_width = self.options, levels[0].grid.dx
-        conserves = bool(levels[0].stencil.conserves)
+        conserves = levels[0].cavity.is_balanced
         shape = Cycle(
             kind=options.cycle,
             pre_sweeps=options.pre_sweeps,

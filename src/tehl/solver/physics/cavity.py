@@ -24,8 +24,11 @@ FRONT_SWEEPS, FRONT_WIDTH, FRONT_RESTS = (4, 16), 6, 0.03
 """Least and most sweeps where a starved film begins, nodes to both sides, and nodes that fill or
 empty over the number of lines below which the meniscus is stationary. Least CPU time of 20
 contacts (M 20 to 200, r 0.2 to 4, 257 nodes) that all converge."""
-
-
+MOST_FRONT_CYCLES = 24
+"""Most cycles on a coarser grid, where a meniscus must be found: there that costs little."""
+OSCILLATES = 4.0
+"""Factor on the iteration error of the film that is always accepted where single nodes of a
+meniscus oscillate, as it follows these nodes."""
 BESIDE_CAVITIES = 2
 """Nodes around partly filled ones that relax with the conductance of the flow: one beyond each
 face, and one as they fill and empty."""
@@ -63,6 +66,12 @@ class ZeroPressure:
 
     frozen_below = FROZEN_BELOW
     """Pressure below which coarse nodes beside a cavity are frozen [-]."""
+    is_balanced = False
+    """Whether the flux of oil through sections ends the iteration."""
+    most_cycles = 0
+    """Least cycles allowed on a coarser grid."""
+    oscillates = 1.0
+    """Factor on the iteration error of the film that is always accepted [-]."""
     keeps_orders = False
     """Whether the nodes that pass on oil with second order stay as they are."""
 
@@ -110,7 +119,8 @@ class ZeroPressure:
 class Conserving(ZeroPressure):
     """Cavities that conserve oil: their nodes are partly filled, and pass on what flows in."""
 
-    frozen_below = 0.0
+    frozen_below, is_balanced = 0.0, True
+    most_cycles, oscillates = MOST_FRONT_CYCLES, OSCILLATES
 
     def __init__(self, layer: Array) -> None:
         self.layer = layer  # oil that enters each line, (ny,)

@@ -13,8 +13,8 @@ from tehl.base.typing import Array
 from tehl.contact.dynamics import Dynamics
 from tehl.result.fields import FilmDynamics
 from tehl.solver.cycle.film_solver import FilmSolver
-from tehl.solver.cycle.iteration import coarse_grid
 from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.methods import coarse_grid
 from tehl.solver.cycle.newton import one_thread
 from tehl.solver.cycle.start import pose_problem
 from tehl.solver.physics.response import FilmResponse, Solutions

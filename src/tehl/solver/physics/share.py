@@ -77,6 +77,10 @@ class OilAlone:
     """Whether a small change of the film moves much load: corrections are limited."""
     lowest = 0.0
     """Pressure of the oil down to which a correction may take a film that stays wet [-]."""
+    combines = False
+    """Whether earlier cycles are combined with the last one between smooth surfaces too."""
+    largest_part = np.inf
+    """Most that the smallest film may be over that of the oil alone, as a part of its error [-]."""
     stays = False
     """Whether the nodes that touch stay as they are: coarser grids of a cycle correct others."""
 
@@ -182,7 +186,7 @@ class Summits(OilAlone):
         Their laws over the separation.
     """
 
-    is_steep, lowest = True, -np.inf
+    is_steep, combines, lowest = True, True, -np.inf
 
     def __init__(self, equations: Equations, table: AsperityTable) -> None:
         super().__init__(equations)
@@ -313,6 +317,7 @@ class BoundaryContact(OilAlone):
     """
 
     bounds_film, by_flux = True, True
+    largest_part = 1.0  # a boundary film may be thicker than any that the oil would form
 
     def __init__(self, equations: Equations, least: float, beneath: OilAlone) -> None:
         super().__init__(equations)
@@ -322,6 +327,7 @@ class BoundaryContact(OilAlone):
             self.nearest = beneath.table.separation(least)
             self.carried = beneath.table.pressure(self.nearest)
         self.is_steep, self.lowest = beneath.is_steep, beneath.lowest
+        self.combines = beneath.combines
         self.touching, self.lowered = np.zeros(shape, bool), np.zeros(shape, bool)
         self.held = np.zeros(shape)
 
