@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from tehl.base.units import Direction, quantity
 from tehl.contact.bodies import Motion, Radii, reduced_radii, reduced_radius
 from tehl.roughness import Smooth
 
@@ -40,6 +41,32 @@ def test_the_speeds_have_the_stated_mean_and_slide_roll_ratio(slip: float):
     assert (motion.speed_1 + motion.speed_2) / 2 == pytest.approx(1.5)
     assert (motion.speed_1 - motion.speed_2) / 1.5 == pytest.approx(slip)
     assert motion.sliding_speed == pytest.approx(motion.speed_1 - motion.speed_2)
+
+
+def test_velocities_differ_by_the_sliding_in_its_direction_and_turn_with_the_spin():
+    motion = Motion(
+        entrainment_speed=2.0,
+        slide_roll_ratio=0.5,
+        sliding_angle=math.radians(30.0),
+        spin_1=10.0,
+        spin_2=-20.0,
+    )
+    first, second = (np.array(motion.velocity_of(surface)) for surface in (1, 2))
+    assert 0.5 * (first + second) == pytest.approx([2.0, 0.0])
+    assert first - second == pytest.approx([math.cos(math.pi / 6), 0.5])
+    u, v = motion.field_of(2, np.array([0.0, 1e-3]), np.array([[0.0], [2e-3]]))
+    assert u - second[0] == pytest.approx(np.array([[0.0, 0.0], [0.04, 0.04]]))
+    assert v - second[1] == pytest.approx(np.array([[0.0, -0.02], [0.0, -0.02]]))
+    assert not motion.is_plain
+    assert motion.mean_spin == -5.0
+
+
+@pytest.mark.parametrize(("degrees", "ratio"), [(0, (1, 0)), (90, (0, 1)), (180, (-1, 0))])
+def test_quarter_turns_are_exact(degrees: float, ratio: tuple[float, float]):
+    angle = quantity(Direction).parse(f"{degrees} deg")
+    motion = Motion(entrainment_speed=1.0, slide_roll_ratio=1.0, sliding_angle=angle)
+    assert motion.sliding_ratio == ratio
+    assert motion.is_plain == (degrees != 90)
 
 
 def test_a_smooth_surface_has_zero_height_in_the_shape_of_its_points():

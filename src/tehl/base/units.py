@@ -167,7 +167,7 @@ class Quantity:
             raise ValueError(f"is not a number; {self._expected}")
         if abs(value) > 1e300:  # so that huge integers of a case file do not overflow
             return self._check(math.inf if value > 0 else -math.inf)
-        if value > self.most:
+        if abs(value) > self.most:
             raise ValueError(f"is in {self.unit} as a bare number; {self._expected}")
         return self._check(float(value))
 
@@ -199,7 +199,9 @@ class Quantity:
         return number if factor == 1.0 else float(f"{number * factor:.15g}")  # 22 1/GPa is 2.2e-8
 
     def _per_turn(self, unit: str, radius: str) -> float:
-        """Return the speed [m/s] at a radius where one revolution per minute is made."""
+        """Return the speed [m/s] at a radius, or [rad/s], of one revolution per minute."""
+        if self.unit == "rad/s" and not radius:
+            return 2.0 * math.pi / 60.0
         if self.unit != "m/s":
             raise ValueError(f"has the unit of a rotational speed ({unit[:20]}); {self._expected}")
         at, _, length = radius.partition(" ")
@@ -222,6 +224,8 @@ class Quantity:
             raise ValueError(f"{error}; {self._expected}") from None
         if self.unit == "-" and unit in _ANGLE_UNITS:
             raise ValueError(f"has the unit of an angle ({unit}); {self._expected}")
+        if self.unit == "rad/s" and not any(one in unit for one in _ANGLE_UNITS):
+            raise ValueError(f"has the unit of a frequency ({unit}); {self._expected}")
         if dimension != self.dimension:
             way = _CONVERSIONS.get((dimension, self.dimension))
             hint = "" if way is None else f" ({way})"
@@ -336,6 +340,10 @@ ThermalResistance = Annotated[
     float, Quantity("a thermal resistance", "K/W", '"2 K/W"', "non-negative")
 ]
 Angle = Annotated[float, Quantity("an angle", "rad", '"45 deg"', "any")]
+Direction = Annotated[float, Quantity("an angle", "rad", '"45 deg"', "any", most=2.0 * math.pi)]
+AngularVelocity = Annotated[
+    float, Quantity("an angular velocity", "rad/s", '"500 rpm"', "any", most=1e6)
+]
 Number = Annotated[float, Quantity("a plain number", "-", "0.25", "any")]
 PositiveNumber = Annotated[float, Quantity("a plain number", "-", "100")]
 Share = Annotated[float, Quantity("a share", "-", '"1 %"')]

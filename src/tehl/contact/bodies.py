@@ -4,6 +4,10 @@ import math
 from dataclasses import dataclass
 
 from tehl.base.errors import InputError
+from tehl.base.typing import Array
+
+ROUNDING_IN_QUARTER_TURNS = 1e-12
+"""Of an angle in quarter turns: "90 deg" is read to 15 digits."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -54,32 +58,89 @@ def reduced_radii(first: Radii, second: Radii) -> Radii:
     return Radii(x=reduced_radius(first.x, second.x), y=reduced_radius(first.y, second.y))
 
 
+def direction(angle: float) -> tuple[float, float]:
+    """Return cosine and sine of an angle [rad]; those of quarter turns, to rounding, are exact."""
+    quarters = angle / (0.5 * math.pi)
+    nearest = round(quarters)
+    if abs(quarters - nearest) < ROUNDING_IN_QUARTER_TURNS:
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[nearest % 4]
+    return math.cos(angle), math.sin(angle)
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Motion:
-    """Speeds of the two surfaces along x."""
+    """Velocities of the two surfaces, in their plane: x along the entrainment at the centre."""
 
     entrainment_speed: float
-    """u_m = (u_1 + u_2) / 2 [m/s]."""
+    """u_m, the size of (u_1 + u_2) / 2 at the centre [m/s]."""
     slide_roll_ratio: float = 0.0
-    """(u_1 - u_2) / u_m [-]."""
+    """Size of u_1 - u_2 at the centre over u_m, with the sign of its direction [-]."""
+    sliding_angle: float = 0.0
+    """Direction of u_1 - u_2 at the centre from x towards y [rad]."""
+    spin_1: float = 0.0
+    spin_2: float = 0.0
+    """Angular velocities of the surfaces about z, from x to y [rad/s]."""
+
+    @property
+    def sliding_ratio(self) -> tuple[float, float]:
+        """Return both components of (u_1 - u_2) / u_m at the centre."""
+        cosine, sine = direction(self.sliding_angle)
+        return self.slide_roll_ratio * cosine, self.slide_roll_ratio * sine
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether both surfaces move along x alone."""
+        return self.spin_1 == 0.0 == self.spin_2 and self.sliding_ratio[1] == 0.0
+
+    @property
+    def slides(self) -> bool:
+        """Whether the surfaces slide anywhere."""
+        return self.slide_roll_ratio != 0.0 or self.spin_1 != self.spin_2
+
+    @property
+    def mean_spin(self) -> float:
+        """Return the spin of the entrainment, (omega_1 + omega_2) / 2 [rad/s]."""
+        return 0.5 * (self.spin_1 + self.spin_2)
 
     @property
     def speed_1(self) -> float:
-        """Return the speed of surface 1, at z = 0 [m/s]."""
-        return self.entrainment_speed * (1.0 + 0.5 * self.slide_roll_ratio)
+        """Return the speed of surface 1, at z = 0, along x at the centre [m/s]."""
+        return self.entrainment_speed * (1.0 + 0.5 * self.sliding_ratio[0])
 
     @property
     def speed_2(self) -> float:
-        """Return the speed of surface 2, at z = h [m/s]."""
-        return self.entrainment_speed * (1.0 - 0.5 * self.slide_roll_ratio)
+        """Return the speed of surface 2, at z = h, along x at the centre [m/s]."""
+        return self.entrainment_speed * (1.0 - 0.5 * self.sliding_ratio[0])
 
     @property
     def sliding_speed(self) -> float:
-        """Return u_1 - u_2 [m/s]."""
+        """Return the size of u_1 - u_2 at the centre, of the sign of the slide-roll ratio [m/s]."""
         return self.entrainment_speed * self.slide_roll_ratio
 
     def speed_of(self, surface: int) -> float:
-        """Return the speed of surface 1 or 2 [m/s]; raise InputError for any other number."""
+        """Return the speed along x of surface 1 or 2 at the centre [m/s].
+
+        Raises InputError for any other number.
+        """
         if surface not in (1, 2):
             raise InputError(f"surface = {surface}: must be 1 or 2")
         return self.speed_1 if surface == 1 else self.speed_2
+
+    def velocity_of(self, surface: int) -> tuple[float, float]:
+        """Return the velocity of surface 1 or 2 at the centre, along x and y [m/s]."""
+        sign = 1.0 if surface == 1 else -1.0
+        return self.speed_of(surface), 0.5 * sign * self.entrainment_speed * self.sliding_ratio[1]
+
+    def field_of(self, surface: int, x: Array, y: Array) -> tuple[Array, Array]:
+        """Return the velocity field of surface 1 or 2, ``u - omega y`` and ``v + omega x`` [m/s].
+
+        Parameters
+        ----------
+        surface : int
+            1 or 2.
+        x, y : Array
+            Places that broadcast, (nx,) and (ny, 1) [m].
+        """
+        (u, v), spin = self.velocity_of(surface), self.spin_1 if surface == 1 else self.spin_2
+        zero = 0.0 * (x + y)
+        return u - spin * y + zero, v + spin * x + zero

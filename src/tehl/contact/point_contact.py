@@ -7,6 +7,8 @@ from pydantic import AfterValidator, model_validator
 
 from tehl.base.table import Table
 from tehl.base.units import (
+    AngularVelocity,
+    Direction,
     Force,
     ForcePerLength,
     Height,
@@ -147,6 +149,11 @@ class Contact(_WithRadii):
         ),
         "speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
         "sliding_speed": "did you mean slide_roll_ratio, (u_1 - u_2) over the mean speed?",
+        **dict.fromkeys(
+            ("spin", "spin_speed", "omega", "spin_ratio"),
+            "did you mean spin_1 and spin_2, the angular velocities of both surfaces about the "
+            'normal of the contact, such as "300 rpm"?',
+        ),
         "diameter": "did you mean radius, half of it?",
     }
     synonyms: ClassVar = {
@@ -155,6 +162,9 @@ class Contact(_WithRadii):
         "hertz_pressure": "pressure max_pressure maximum_pressure hertz_stress p_h",
         "entrainment_speed": "velocity mean_speed rolling_speed rolling_velocity u_m u",
         "slide_roll_ratio": "srr slip slide_ratio sliding_ratio slide_to_roll",
+        "sliding_angle": "slip_angle sliding_direction skew_angle",
+        "spin_1": "omega_1 spin_speed_1",
+        "spin_2": "omega_2 spin_speed_2",
         "radius_x": "rx r_x radius_1",
         "radius_y": "ry r_y radius_2",
         "radius": "r",
@@ -180,6 +190,12 @@ class Contact(_WithRadii):
     """Exactly one: u_m [m/s] or L [-]."""
     slide_roll_ratio: Number = 0.0
     """(u_1 - u_2) / u_m [-]."""
+    sliding_angle: Direction = 0.0
+    """Direction of u_1 - u_2 from that of the entrainment, counter-clockwise [rad]."""
+    spin_1: AngularVelocity = 0.0
+    spin_2: AngularVelocity = 0.0
+    """Angular velocities of the surfaces about z, counter-clockwise [rad/s]; speeds are those at
+    the centre."""
 
     @model_validator(mode="after")
     def _must_be_stated_once(self) -> Self:
@@ -420,7 +436,11 @@ class PointContact(Table):
     def motion(self) -> Motion:
         """Return the speeds of both surfaces."""
         return Motion(
-            entrainment_speed=self.entrainment_speed, slide_roll_ratio=self.slide_roll_ratio
+            entrainment_speed=self.entrainment_speed,
+            slide_roll_ratio=self.slide_roll_ratio,
+            sliding_angle=self.contact.sliding_angle,
+            spin_1=self.contact.spin_1,
+            spin_2=self.contact.spin_2,
         )
 
     @property
@@ -461,6 +481,8 @@ class PointContact(Table):
         """Whether the problem is symmetric in y, so that half of the domain suffices."""
         if self.contact.is_line:
             return True
+        if not self.motion.is_plain:
+            return False
         supply = self.supply is None or self.supply.is_even_in_y
         surfaces = self.surface_1.roughness, self.surface_2.roughness
         return supply and all(roughness.is_even_in_y for roughness in surfaces)

@@ -69,6 +69,7 @@ def check(problem: PointContact) -> None:
     check_temperatures(problem)
     check_heat(problem)
     check_transient(problem)
+    check_motion(problem)
     check_supply(problem)
     check_asperities(problem)
     check_contact_film(problem)
@@ -236,6 +237,16 @@ def check_transient(problem: PointContact) -> None:
             "transient: nothing changes with time; give a surface roughness, transient.load or "
             "transient.duration"
         )
+
+
+def check_motion(problem: PointContact) -> None:
+    """Check that sliding across the entrainment, and spin, are supported."""
+    contact = problem.contact
+    for name in ("sliding_angle", "spin_1", "spin_2"):
+        if getattr(contact, name) != 0.0 and not problem.motion.is_plain:
+            raise ValueError(
+                f"contact.{name} = {getattr(contact, name):g} is not supported yet: leave it out"
+            )
 
 
 def check_supply(problem: PointContact) -> None:
