@@ -99,16 +99,35 @@ def test_a_rigid_line_is_that_of_martin():
     assert found["M002"] == pytest.approx(CITED["rigid"]["martin"], rel=1.5e-3)
 
 
-@pytest.mark.parametrize(
-    ("name", "table"),
-    [
-        ("contact_film", {"contact_film": {"thickness": 5e-9}}),
-        ("dynamics", {"dynamics": {}}),
-    ],
-)
-def test_what_is_not_computed_for_lines_is_refused(name, table):
-    with pytest.raises(tehl.InputError, match=f'"line" and {name} exclude each other'):
-        tehl.ContactProblem(**line(20.0, 10.0).model_dump(exclude_none=True) | table)
+def test_what_is_not_computed_for_lines_is_refused():
+    with pytest.raises(tehl.InputError, match='"line" and dynamics exclude each other'):
+        tehl.ContactProblem(**line(20.0, 10.0).model_dump(exclude_none=True) | {"dynamics": {}})
+
+
+def test_a_boundary_film_holds_a_line_apart_or_carries_it():
+    # where surfaces may touch fluxes are of second order
+    oil = tehl.solve(line(20.0, 10.0), Options(points=257, wedge_order=2))
+    film = oil.central_film_thickness
+    for part, other in ((0.5, {}), (2.0, {}), (2.0, {"shear": {"law": "eyring", "stress": 5e6}})):
+        problem = line(20.0, 10.0, contact_film={"thickness": part * film, "friction": 0.1})
+        lubricant = problem.lubricant.model_dump(exclude_none=True) | other
+        tables = problem.model_dump(exclude_none=True) | {"lubricant": lubricant}
+        tables["contact"]["slide_roll_ratio"] = 0.2
+        found = tehl.solve(tehl.ContactProblem(**tables), Options(points=257))
+        if part < 1.0:  # nothing touches
+            assert found.touching.share == 0.0
+            assert found.central_film_thickness == pytest.approx(film, rel=1e-3)
+            continue
+        # the solids carry the load at the pressure of the dry contact
+        assert found.film_thickness.min() == pytest.approx(part * film, rel=1e-9)
+        pressure = (found.pressure + found.contact.pressure)[0] / found.scales.hertz_pressure
+        x = found.scaled.x
+        inside = np.abs(x) < 0.9
+        assert np.abs(pressure - np.sqrt(np.maximum(1.0 - x**2, 0.0)))[inside].max() < 0.025
+        assert found.touching.share == pytest.approx(0.9913, abs=5e-4)  # 257 to 1025 nodes
+        assert found.touching.friction_boundary == pytest.approx(0.1 * found.touching.share)
+        assert found.touching.area == pytest.approx(2.0 * found.scales.half_width_x, rel=0.05)
+        assert found.touching.patches.number == 1
 
 
 def test_a_line_works_with_loads_in_time_cavities_and_stress():

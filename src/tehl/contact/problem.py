@@ -297,11 +297,6 @@ def check_line(problem: PointContact) -> None:
     supply, thermal = problem.supply, problem.thermal
     resting = thermal is not None and any(problem.motion.speed_of(one) == 0.0 for one in (1, 2))
     excluded = {
-        "contact_film": (
-            problem.contact_film is not None,
-            "oil cannot flow round a place where the surfaces touch, so no film passes it; take "
-            "[asperities]",
-        ),
         "dynamics": (
             problem.dynamics is not None,
             "two half-spaces under a line load approach each other without limit",

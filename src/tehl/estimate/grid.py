@@ -51,6 +51,12 @@ class Grid:
         start = 0.0 if self.mirror or self.ny == 1 else self.domain.y[0]
         return start + self.dy * np.arange(float(self.shape[0]))
 
+    @property
+    def inner(self) -> tuple[slice, slice]:
+        """Rows and columns of the nodes that are on no edge; the row of a line is on none."""
+        rows = slice(0 if self.mirror or self.ny == 1 else 1, max(self.shape[0] - 1, 1))
+        return rows, slice(1, self.nx - 1)
+
     def unfold(self, field: Array) -> Array:
         """Return ``field`` on the full domain, (ny, nx)."""
         return np.concatenate([field[:0:-1], field]) if self.mirror else field.copy()

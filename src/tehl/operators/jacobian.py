@@ -75,7 +75,7 @@ def neighbour(
     Parameters
     ----------
     grid : Grid
-        On mirrored grids rows before y = 0 are those behind it.
+        On mirrored grids rows before y = 0 are those behind it; a single row is its own neighbour.
     inner : array of bool, ``grid.shape``
         Nodes that are not on an edge.
     rows, columns : int
@@ -85,7 +85,7 @@ def neighbour(
     """
     ny, nx = grid.shape
     j, i = np.nonzero(inner)
-    there = np.abs(j + rows) if grid.mirror else j + rows
+    there = np.abs(j + rows) if grid.mirror else j + rows if ny > 1 else j
     column = i + columns
     inside = (there >= 0) & (there < ny) & (column >= 0) & (column < nx)
     places = (j[inside] * nx + i[inside], there[inside] * nx + column[inside])
@@ -106,7 +106,7 @@ def neighbours_of(grid: Grid, stencil: Stencil) -> Neighbours:
         Its ``w0``, ``w1``, ``w2`` are the weights of the wedge.
     """
     inner = np.zeros(grid.shape, bool)
-    inner[(0 if grid.mirror else 1) : -1, 1:-1] = True
+    inner[grid.inner] = True
     first = inner.copy()
     first[:, 2:] = False
     others = inner & ~first
@@ -258,7 +258,7 @@ def flux_difference(
         first[:, 0] = (film.partial[:, 0] == 0) & (film.partial[:, 1] == 0)
         passed = rows(1.0 - first.ravel()) @ passed + rows(0.5 * first.ravel()) @ (here + east)
     inner = np.zeros(grid.shape)
-    inner[(0 if grid.mirror else 1) : -1, 1:-1] = 1.0 / grid.dx
+    inner[grid.inner] = 1.0 / grid.dx
     if onward is not None:
         passed = onward @ passed
     return csr_matrix(rows(inner.ravel()) @ (here - west) @ passed)
@@ -288,6 +288,8 @@ def interpolation(fine: Grid, coarse: Grid) -> csr_matrix:
 
 def _between(fine: int, coarse: int) -> csr_matrix:
     """Return the matrix of linear interpolation from ``coarse`` to ``fine`` nodes of a line."""
+    if fine == 1:  # of a line contact
+        return csr_matrix(np.ones((1, 1)))
     place = np.arange(fine) * ((coarse - 1) / (fine - 1))
     low = np.minimum(place.astype(int), coarse - 2)
     part, node = place - low, np.arange(fine)

@@ -138,7 +138,7 @@ def touching(result: Solution) -> Touching | None:
         is_certified=registry.at("touching.share").name in result.uncertainty,
         solid_share=float((cells * found.pressure).sum()) / result.load,
         area=area,
-        area_part=area / (math.pi * scales.half_width_x * scales.half_width_y),
+        area_part=area / (result.groups.shape.area * scales.half_width_x * scales.half_width_y),
         contact_pressure_max=float(found.pressure.max()),
         pressure_max=float(both.max()),
         friction_boundary=film.friction * share if slides else 0.0,
@@ -203,7 +203,7 @@ def _patches(result: Solution, meet: BoolArray, loads: Array, both: Array) -> Pa
     if not meet.any():
         return None
     nodes, cells = _diameters(meet, loads)
-    cell = float(result.x[1] - result.x[0]) * float(result.y[1] - result.y[0])
+    cell = float(result.x[1] - result.x[0]) * float(cell_widths(result.y).max())
     return Patches(
         number=nodes.size,
         area_mean=float(nodes.mean()) * cell,
@@ -218,7 +218,7 @@ def _diameters(meet: BoolArray, loads: Array) -> tuple[IntArray, float]:
     """Return the nodes of each patch, and the mean diameter weighted by load [mesh widths].
 
     The diameter is that of a circle of its area, or the width of the patch where it is broadest if
-    that is less: a long patch is resolved if its width is.
+    that is less: a long patch is resolved if its width is. In a line contact it is its length.
     """
     # 0.1 s, for contacts that touch only
     from scipy.ndimage import distance_transform_edt, label, maximum  # noqa: PLC0415
@@ -228,6 +228,6 @@ def _diameters(meet: BoolArray, loads: Array) -> tuple[IntArray, float]:
     nodes = np.bincount(labels.ravel())[1:]
     carried = np.bincount(labels.ravel(), weights=loads.ravel())[1:]
     widths = 2.0 * np.asarray(maximum(depth, labels, np.arange(1, number + 1)))
-    across = np.minimum(2.0 * np.sqrt(nodes / math.pi), widths)
+    across = np.minimum(2.0 * np.sqrt(nodes / math.pi), widths) if len(meet) > 1 else nodes
     weights = carried if carried.sum() > 0.0 else np.ones(number)
     return nodes, float((weights * across).sum() / weights.sum())

@@ -50,6 +50,8 @@ RUNAWAY = 100.0
 """Load error, and central film over that by formula or 1, beyond which no iteration recovers."""
 LARGEST_ROUGH_STEP = 10.0
 """Change of pressure per cycle beyond which no iteration between rough surfaces recovers."""
+ROUNDING_CHANGE = 1e-12
+"""Relative iteration error of the film that is rounding: a boundary film is the same on all."""
 STALL_CYCLES, STALL_FACTOR = 8, 0.5
 """Cycles in which the residual must fall by this factor, else the iteration has stalled."""
 
@@ -231,7 +233,9 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
         return False
     last = now.reports[-1]
     least = SLOW_CONVERGENCE_RATE if len(now.reports) < SLOW_CYCLES else 1.0
-    if last.residual > least * now.reports[-2].residual:  # its changes are not errors yet
+    if (
+        last.change > ROUNDING_CHANGE and last.residual > least * now.reports[-2].residual
+    ):  # its changes are not errors yet
         return False
     if abs(last.load_error) > LARGEST_LOAD_ERROR or last.change > now.largest_change:
         return False
@@ -245,7 +249,7 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
         a.iteration_error()
         <= max(
             now.part * max(abs(a.values[-1] - b.values[-1]) / 9.0, 0.1 * limit),
-            now.negligible * abs(a.values[-1]),
+            max(now.negligible, ROUNDING_CHANGE) * abs(a.values[-1]),
         )
         for a, b in pairs
     )

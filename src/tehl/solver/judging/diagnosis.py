@@ -225,7 +225,8 @@ def _film_below_grid(grid: Grid, scaled: ScaledProblem) -> Iterator[LikelyCause]
     """Yield the grid if it cannot resolve the film, unless solids carry most of the load."""
     if solids_carry(scaled):
         return
-    groups, film, here = scaled.groups, film_to_resolve(scaled), min(grid.nx, grid.ny)
+    groups, film = scaled.groups, film_to_resolve(scaled)
+    here = min(grid.nx, grid.ny) if grid.ny > 1 else grid.nx
     needed = expected_points(groups, grid.domain, LARGEST_RESOLVED_ERROR, film=film)
     if not needed > here:
         return

@@ -320,9 +320,10 @@ def close_influence(level: Level) -> csr_matrix:
     """Return the influence of each node on itself and on the eight around it."""
     grid, influence = level.grid, level.equations.influence
     every = np.ones(grid.shape, bool)
+    across = (-1, 0, 1) if grid.ny > 1 else (0,)
     parts = (
         neighbour(grid, every, j, i, float(influence(abs(j), abs(i))))
-        for j in (-1, 0, 1)
+        for j in across
         for i in (-1, 0, 1)
     )
     return csr_matrix(sum(parts, start=csr_matrix((every.size, every.size))))

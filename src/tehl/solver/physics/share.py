@@ -370,11 +370,9 @@ class BoundaryContact(OilAlone):
         film.asperity[touching] = before
 
     def _find(self, level: Carried) -> None:
-        inner = slice(None, -1), slice(1, -1)
+        inner = self.equations.grid.inner
         gap = (level.separation - self.nearest) / self.equations.influence.self_film
         self.touching[inner] = (level.film.asperity - self.carried > gap)[inner]
-        if not self.equations.grid.mirror:
-            self.touching[0] = False
 
     def gap(self, level: Carried) -> Array:
         """Return the separation, that of the boundary film where the surfaces touch."""
