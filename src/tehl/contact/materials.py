@@ -9,7 +9,13 @@ from pydantic import BeforeValidator, Field, ValidationInfo
 from tehl.base.errors import InputError
 from tehl.base.named import Library
 from tehl.base.table import Table, folder_of
-from tehl.base.units import Pressure, SolidConductivity, SolidDensity, SolidHeatCapacity
+from tehl.base.units import (
+    Pressure,
+    SolidConductivity,
+    SolidDensity,
+    SolidHeatCapacity,
+    TemperatureCoefficient,
+)
 
 
 class Solid(Table):
@@ -23,6 +29,8 @@ class Solid(Table):
     heat_capacity: SolidHeatCapacity | None = None
     conductivity: SolidConductivity | None = None
     """Thermal properties [kg/m^3], [J/kg/K], [W/m/K]; only needed when heat is computed."""
+    expansion: TemperatureCoefficient | None = None
+    """Thermal expansion of a length [1/K]: only needed for thermal stress."""
     hardness: Pressure | None = None
     """Of indentation [Pa]: summits that would carry more yield."""
     transparent: bool = False
@@ -100,6 +108,7 @@ class SolidByName(Table):
     density: SolidDensity | None = None
     heat_capacity: SolidHeatCapacity | None = None
     conductivity: SolidConductivity | None = None
+    expansion: TemperatureCoefficient | None = None
     hardness: Pressure | None = None
     transparent: bool | None = None
     name: str | None = None

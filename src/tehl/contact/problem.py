@@ -17,6 +17,7 @@ from tehl.base.units import (
     SolidConductivity,
     SolidDensity,
     SolidHeatCapacity,
+    TemperatureCoefficient,
     quantity,
 )
 from tehl.contact.bodies import reduced_radius
@@ -74,6 +75,7 @@ def check(problem: PointContact) -> None:
     check_asperities(problem)
     check_contact_film(problem)
     check_dynamics(problem)
+    check_stress(problem)
     if problem.contact.moes_speed is not None and not problem.pressure_coefficient > 0:
         raise ValueError(
             "contact.moes_speed does not determine a speed: lubricant.viscosity has no pressure "
@@ -314,6 +316,21 @@ def check_line(problem: PointContact) -> None:
     for name, (is_stated, why) in excluded.items():
         if is_stated:
             raise ValueError(f'contact.type = "line" and {name} exclude each other: {why}')
+
+
+def check_stress(problem: PointContact) -> None:
+    """Check that the heat of a thermal stress is computed, and that the bodies expand by it."""
+    stress = problem.stress
+    if stress is None or not stress.thermal:
+        return
+    if problem.thermal is None:
+        raise ValueError("stress.thermal = true needs the heat of the film: add [thermal]")
+    for body in stress.bodies:
+        if (problem.surface_1, problem.surface_2)[body - 1].material.expansion is None:
+            raise ValueError(
+                f"surface_{body}.material.expansion is missing, which stress.thermal needs: give "
+                f'{quantity(TemperatureCoefficient).name} such as "12e-6 1/K"'
+            )
 
 
 def check_dynamics(problem: PointContact) -> None:

@@ -18,6 +18,7 @@ class Stress(Table):
         "residual": "residual_stress profile",
         "body": "surface bodies",
         "deepest": "depth max_depth",
+        "thermal": "heat thermal_stress",
     }
 
     body: Literal[1, 2, "both"] = "both"
@@ -30,6 +31,9 @@ class Stress(Table):
     residual: tuple[tuple[Height, SolidStress], ...] = ()
     """Depths [m] and residual stresses along x and y [Pa], tension positive, linear between and
     constant beyond; the dry smooth contact has them too."""
+    thermal: bool = False
+    """Whether the heat of the film stresses the bodies too; needs ``[thermal]`` and the
+    ``expansion`` of their materials."""
     criterion: Literal["orthogonal-shear", "dang-van"] = "orthogonal-shear"
     """Stress that decides the relative life: amplitude of tau_zx as Lundberg and Palmgren have it,
     or that of Dang Van."""

@@ -57,6 +57,7 @@ class Variable:
 
 _AXES = {"x": "X", "y": "Y", "zeta": "zeta", "time": "time"}
 _AXES |= {"body": "stress_body", "depth": "stress_depth", "stress_x": "stress_x"}
+_AXES |= {"stress_y": "stress_y"}
 _AXES |= {"frame": "frame_step", "bar": "bar_time", "pass": "pass", "frequency": "frequency"}
 """Array that gives the size of each dimension."""
 _PARTS: dict[str, tuple[type, Table]] = {

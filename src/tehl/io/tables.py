@@ -79,6 +79,7 @@ STRESS = (
     *_table("body", ("body", "stress_body", "1", "number of the body")),
     *_table("depth", ("depth", "stress_depth", "m", "depth below the surface")),
     *_table("stress_x", ("x", "stress_x", "m", "coordinate along entrainment of stresses")),
+    *_table("stress_y", ("y", "stress_y", "m", "coordinate across entrainment of stresses")),
     *_table(
         "body depth stress_x",
         *(
@@ -86,6 +87,15 @@ STRESS = (
             for name in ("xx", "yy", "zz", "xy", "yz", "zx")
         ),
     ),
+    *_table(
+        "body depth stress_y",
+        ("across", "shear_max_across", "Pa", "largest shear stress on x = 0"),
+    ),
+    *_table(
+        "body stress_y stress_x",
+        ("floor", "shear_max_floor", "Pa", "largest shear stress at the depth where it is largest"),
+    ),
+    *_table("body", ("floor_depth", "shear_max_floor_depth", "m", "that depth")),
     *_table(
         "body depth",
         ("shear", "shear_max", "Pa", "largest shear stress at the depth"),
@@ -104,6 +114,7 @@ STRESS = (
         ("life", "life_ratio", "1", "life over that of the dry smooth contact"),
         ("life_coarse", "life_ratio_coarse", "1", "life_ratio by loads on every second node"),
         ("traction", "stress_traction", "1", "force of the film on the body over the load"),
+        ("thermal", "thermal_stress", "Pa", "E alpha dT/(1 - nu) of the warmest place"),
     ),
     *_table("", ("left_out", "stress_traction_left_out", "1", "1 where film shear is left out")),
 )
@@ -217,6 +228,6 @@ BARS = _table(
 
 COORDINATES = (
     *("x", "y", "X", "Y", "zeta", "cycle", "time", "frame_time", "bar_time"),
-    *("stress_body", "stress_depth", "stress_x", "frequency"),
+    *("stress_body", "stress_depth", "stress_x", "stress_y", "frequency"),
 )
 """Arrays that are coordinates of a dataset."""

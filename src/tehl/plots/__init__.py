@@ -29,7 +29,7 @@ from tehl.plots.maps import (
     shear_stress_map,
 )
 from tehl.plots.oil import oil_map, pass_history
-from tehl.plots.stress import moving_section, stress_section
+from tehl.plots.stress import moving_section, stress_planes, stress_section
 from tehl.plots.surface import surface_preview
 from tehl.plots.table_curves import curves
 from tehl.plots.table_maps import contour_map, film_deviations, moes_map
@@ -80,6 +80,7 @@ __all__ = [
     "save_all",
     "shear_stress_map",
     "space_time",
+    "stress_planes",
     "stress_section",
     "surface_heat",
     "surface_preview",
@@ -179,7 +180,7 @@ def _of_oil(result: Solution) -> Pictures:
     if result.dynamics is not None:
         found["dynamics"] = dynamics_curves
     if result.stress is not None:
-        found["stress"] = stress_section
+        found |= {"stress": stress_section, "stress_planes": stress_planes}
     return found
 
 

@@ -19,6 +19,7 @@ from tehl.plots.frame import (
     ORANGE,
     PLAIN,
     colour_bar,
+    dress_contact,
     figure,
     inner_levels,
     mark_levels,
@@ -32,6 +33,8 @@ from tehl.result.transient import TransientSolution
 
 DEEPEST_SHOWN = 1.5
 """Depth that sections show [smaller half-widths of the Hertz contact]."""
+PLANES = {"x": "y = 0", "y": "x = 0"}
+"""Plane of a section along x or y."""
 DRAWN_DEPTHS = 200
 """Depths of a section as drawn: stresses at the depths computed are interpolated."""
 
@@ -73,21 +76,58 @@ def stress_section(result: Solution, *, title: bool | None = True) -> Figure:
     return picture
 
 
-def _draw_section(axes: Axes, result: Solution, found: BodyStress, shear: Array) -> None:
-    """Draw a map over x and depth, which points down."""
+def stress_planes(result: Solution, *, title: bool | None = True) -> Figure:
+    """Draw the largest shear stress on the plane x = 0, and at the depth where it is largest [GPa].
+
+    Parameters
+    ----------
+    result : Solution
+        With stresses, not of a line contact.
+    title : bool or None
+        Whether the figure has a title.
+
+    Raises
+    ------
+    InputError
+        If the result has no stresses, or is a line contact.
+    """
+    found, numbers = result.stress, stress_numbers(result)
+    if found is None or numbers is None or found.y.size == 1:
+        raise InputError("the result has no planes of stress: state [stress] of a point contact")
+    body = numbers.worse
+    row = int(np.argmax(found.body == body.body))
+    deep = float(found.floor_depth[row]) * MICRO
+    picture = figure(result, (9.6, 4.6), f"below surface {body.body}", title=title)
+    picture.set_layout_engine("compressed")
+    section, floor = picture.subplots(1, 2)
+    _draw_section(section, result, found, found.across[row], "y")
+    x, y = found.x * MICRO, found.y * MICRO
+    mesh = floor.pcolormesh(x, y, found.floor[row] * GIGA, cmap="viridis", **MAP)
+    dress_contact(floor, result)
+    floor.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), title=f"{deep:.4g} µm deep")
+    colour_bar(floor, mesh, "largest shear stress [GPa]")
+    return picture
+
+
+def _draw_section(
+    axes: Axes, result: Solution, found: BodyStress, shear: Array, along: str = "x"
+) -> None:
+    """Draw a map over x or y and depth, which points down."""
     depth, shown = finer(found.depth, shear * GIGA, _reach(result))
-    places = found.x * MICRO, depth * MICRO
-    _dress(axes, result, (float(places[0][0]), float(places[0][-1])))
+    places = getattr(found, along) * MICRO, depth * MICRO
+    _dress(axes, result, (float(places[0][0]), float(places[0][-1])), along)
     mesh = axes.pcolormesh(*places, shown, cmap="viridis", clim=(0.0, shown.max()), **MAP)
     style: dict[str, Any] = {"colors": "white", "linewidths": 0.5}
     lines = axes.contour(*places, shown, levels=inner_levels((0.0, float(shown.max()))), **style)
-    mark_levels(colour_bar(axes, mesh, "largest shear stress on y = 0 [GPa]"), lines)
+    mark_levels(colour_bar(axes, mesh, f"largest shear stress on {PLANES[along]} [GPa]"), lines)
 
 
-def _dress(axes: Axes, result: Solution, x: tuple[float, float]) -> None:
+def _dress(axes: Axes, result: Solution, x: tuple[float, float], along: str = "x") -> None:
     """Give the axes of a section its window and the edges of the Hertz contact."""
-    reach, width = _reach(result) * MICRO, result.scales.half_width_x * MICRO
-    axes.set(xlabel="x along entrainment [µm]", ylabel="depth z [µm]", xlim=x, ylim=(reach, 0.0))
+    reach, scales = _reach(result) * MICRO, result.scales
+    width = MICRO * (scales.half_width_x if along == "x" else scales.half_width_y)
+    label = f"{along} {'along' if along == 'x' else 'across'} entrainment [µm]"
+    axes.set(xlabel=label, ylabel="depth z [µm]", xlim=x, ylim=(reach, 0.0))
     axes.set_aspect(1.0)
     for edge in (-width, width):
         axes.plot([edge, edge], [0.0, 0.12 * reach], color="0.25", lw=1.2, clip_on=False)

@@ -48,6 +48,7 @@ CAPTIONS = {
     "temperature_layers": "Temperature rise on both surfaces and in the film.",
     "temperature_section": "Temperature rise in the plane y = 0, over z/h and over z.",
     "stress": "Largest shear stress on y = 0 below a surface, and the largest at each depth.",
+    "stress_planes": "Largest shear stress on x = 0, and at the depth where it is largest.",
     "moving_stress": "Largest shear stress below a surface: when it is largest, and over time.",
     "surface_heat": "Temperatures and heat fluxes into the solids along y = 0.",
     "interferogram_white": "Synthetic interferogram, white light.",

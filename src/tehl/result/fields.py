@@ -169,6 +169,8 @@ class BodyStress(_ReadOnly):
     """(nz,): z [m]."""
     x: Array
     """(nw,): Along the plane y = 0 [m]."""
+    y: Array
+    """(nv,): Along the plane x = 0 [m]."""
     xx: Array
     yy: Array
     zz: Array
@@ -176,6 +178,12 @@ class BodyStress(_ReadOnly):
     yz: Array
     zx: Array
     """(n, nz, nw): Components on the plane y = 0 [Pa]."""
+    across: Array
+    """(n, nz, nv): Largest shear stress on the plane x = 0 [Pa]."""
+    floor: Array
+    """(n, nv, nw): Largest shear stress at the depth ``floor_depth`` [Pa]."""
+    floor_depth: Array
+    """(n,): Where the largest shear stress of all depths is [m]."""
     shear: Array
     shear_x: Array
     shear_y: Array
@@ -199,6 +207,9 @@ class BodyStress(_ReadOnly):
     """(n,): Force of the film on the body along x over the load [-]."""
     left_out: Array
     """(): 1 where the shear stress of the film is more than any oil can carry: it is left out."""
+    thermal: Array
+    """(n,): E alpha dT/(1 - nu) of the warmest place of the surface, if heat counts [Pa]; zero if
+    it does not, or the body is too slow."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

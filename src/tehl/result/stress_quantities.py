@@ -23,6 +23,7 @@ _KEYS = {
     "life_ratio_error": "life_ratio_error",
     "at_shallowest": "at_shallowest",
     "traction": "traction",
+    "thermal_pa": "thermal",
 }
 """Keys of the numbers of a body, and what `tehl.post.stress.numbers` calls them."""
 _SHOWN: dict[str, dict[str, Any]] = {
@@ -43,6 +44,10 @@ _SHOWN: dict[str, dict[str, Any]] = {
         "unit": "GPa",
         "words": dict.fromkeys(("axis", "report"), "largest stress of von Mises"),
     },
+    "thermal_pa": {
+        "unit": "GPa",
+        "words": {"axis": "thermal stress of the surface", "report": "thermal stress"},
+    },
     "life_ratio": {
         "words": dict.fromkeys(("axis", "list", "report"), "life over that of dry smooth contact")
     },
@@ -61,7 +66,7 @@ def stress_quantities() -> Iterator[Quantity]:
         shown = _SHOWN.get(key, {})
         yield Quantity(f"stress.{key}", attrgetter(f"worse.{name}"), error=bar, **shown)
     yield Quantity("stress.body", attrgetter("worse.body"))
-    for key in ("shallowest_m", "traction_left_out", "counts_roughness"):
+    for key in ("shallowest_m", "traction_left_out", "too_slow", "counts_roughness"):
         yield Quantity(f"stress.{key}")
     for body in (1, 2):
         for key, name in _KEYS.items():

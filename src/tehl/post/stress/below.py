@@ -1,40 +1,46 @@
 """Stress below the surfaces of a result, depth by depth; only one depth is in memory at a time."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tehl.base.typing import Array
 from tehl.contact.stress import Stress
-from tehl.post.stress.influence import COMPONENTS, HalfSpace
+from tehl.post.stress.influence import COMPONENTS, HalfSpace, Influence
 from tehl.post.stress.loads import SurfaceLoads, left_out, loads_on
-from tehl.post.stress.measures import Worst, worst
+from tehl.post.stress.measures import Worst, largest_shear, worst
+from tehl.post.stress.thermal import Heated, ThermalStress, heated_body
+from tehl.post.stress.window import Window, cut, depths_of, halved, middle_row, wake, window_of
 from tehl.result.fields import BodyStress
 from tehl.result.solution import Solution
 
-LEAST_PRESSURE = 1e-2
-"""Pressure over the largest below which nodes at the edges of the domain are left out."""
-LEAST_WINDOW = 1.25
-"""Half-widths of the Hertz contact on each side in which stresses are always computed."""
-LEAST_DEPTH = 2.0
-"""Least depth [mesh widths]: above it a rough pressure is not resolved."""
-
-
-class Window(NamedTuple):
-    """Part of the nodes whose loads and stresses count, of an odd number along x and y."""
-
-    rows: slice
-    columns: slice
-    spacing: tuple[float, float]
-    """Mesh widths along y and x [m]."""
-
 
 class Case(NamedTuple):
-    """Loads on a half-space of one material."""
+    """Loads on a half-space of one material, and the heat that it takes."""
 
     loads: SurfaceLoads
     poisson_ratio: float
+    heat: Heated | None = None
+
+
+class Grid(NamedTuple):
+    """Nodes of the loads, and those of them at which stresses are kept."""
+
+    spacing: tuple[float, float]
+    """Mesh widths along y and x [m]."""
+    kept: slice
+    """Columns: the others carry a wake of heat."""
+    row: int
+    column: int
+    """Kept nodes nearest to the axes."""
+
+    @property
+    def coarser(self) -> "Grid":
+        """Return the grid of every second node."""
+        (dy, dx), kept = self.spacing, self.kept
+        columns = slice(kept.start // 2, (kept.stop + 1) // 2)
+        return Grid((2.0 * dy, 2.0 * dx), columns, self.row // 2, self.column // 2)
 
 
 def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress:
@@ -52,44 +58,52 @@ def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress
     settings = settings or result.problem.stress or Stress()
     loads = [loads_on(result, body) for body in settings.bodies]
     window = window_of(result, loads[0].pressure)
-    depths = depths_of(result, settings, window)
+    depths, sides = depths_of(result, settings, window), wake(result, settings, window)
+    heats = [heated_body(result, body, window, sides) for body in settings.bodies]
+    if not settings.thermal:
+        heats = [None] * len(loads)
     cases = [
-        Case(cut(one, window), poisson_ratio(result, body))
-        for one, body in zip(loads, settings.bodies, strict=True)
+        Case(_beside(cut(one, window), sides), poisson_ratio(result, body), heat)
+        for one, body, heat in zip(loads, settings.bodies, heats, strict=True)
     ]
-    dry = [
-        Case(_dry(result, window), nu) for nu in dict.fromkeys(one.poisson_ratio for one in cases)
-    ]
+    dry_load = _beside(_dry(result, window), sides)
+    dry = [Case(dry_load, nu) for nu in dict.fromkeys(one.poisson_ratio for one in cases)]
     which = [[one.poisson_ratio for one in dry].index(case.poisson_ratio) for case in cases]
-    scale = result.scales.hertz_pressure
-    march = March(depths, settings, scale)
-    fine, planes = march.through([*cases, *dry], window.spacing, row=middle_row(result, window))
-    coarse, _ = march.through(
-        [Case(_halved(one.loads), one.poisson_ratio) for one in (*cases, *dry)],
-        (2.0 * window.spacing[0], 2.0 * window.spacing[1]),
-    )
+    x, y = result.x[window.columns], result.y[window.rows]
+    kept = slice(sides[0], sides[0] + x.size)
+    row, column = middle_row(result, window), int(np.argmin(np.abs(x)))
+    grid = Grid(window.spacing, kept, row, column)
+    march = March(depths, settings, result.scales.hertz_pressure)
+    fine = march.through([*cases, *dry], grid)
+    coarse = march.through([_coarser(one) for one in (*cases, *dry)], grid.coarser).found
     n = len(cases)
-    dry_part, x, y = fine[n:][which], result.x[window.columns], result.y[window.rows]
-    life = march.life(fine[:n], dry_part)
+    dry_part, found = fine.found[n:][which], fine.found[:n]
+    level = [int(np.argmax(one)) for one in _column(found, "shear")]
+    floors = [march.at(case, grid, k) for case, k in zip(cases, level, strict=True)]
     return BodyStress(
         body=np.array(settings.bodies, float),
         depth=depths,
         x=x,
-        **{name: planes[:n, k] for k, name in enumerate(COMPONENTS)},
-        shear=_column(fine[:n], "shear"),
-        shear_x=x[_column(fine[:n], "column").astype(int)],
-        shear_y=y[_column(fine[:n], "row").astype(int)],
-        von_mises=_column(fine[:n], "von_mises"),
-        orthogonal=_column(fine[:n], "orthogonal"),
-        dang_van=_column(fine[:n], "dang_van"),
+        y=y,
+        **{name: fine.along[:n, k] for k, name in enumerate(COMPONENTS)},
+        across=fine.across[:n],
+        floor=np.array([largest_shear(one) for one in floors]),
+        floor_depth=depths[level],
+        shear=_column(found, "shear"),
+        shear_x=x[_column(found, "column").astype(int)],
+        shear_y=y[_column(found, "row").astype(int)],
+        von_mises=_column(found, "von_mises"),
+        orthogonal=_column(found, "orthogonal"),
+        dang_van=_column(found, "dang_van"),
         shear_coarse=_column(coarse[:n], "shear"),
         shear_dry=_column(dry_part, "shear"),
         orthogonal_dry=_column(dry_part, "orthogonal"),
         dang_van_dry=_column(dry_part, "dang_van"),
-        life=life,
+        life=march.life(found, dry_part),
         life_coarse=march.life(coarse[:n], coarse[n:][which]),
         traction=np.array([one.loads.traction_x.sum() / one.loads.pressure.sum() for one in cases]),
         left_out=np.array(float(left_out(result))),
+        thermal=np.array([0.0 if one is None else one.surface_stress for one in heats]),
     )
 
 
@@ -100,52 +114,92 @@ def with_stress(result: Solution) -> Solution:
     return result.but(stress=stress_below(result))
 
 
+class Marched(NamedTuple):
+    """What is kept of all depths."""
+
+    found: Array
+    """(n, nz, 7): `Worst` of each case and depth [Pa], places in nodes; ``risk`` in the pressure
+    scale."""
+    along: Array
+    """(n, 6, nz, nx): Components along the row nearest to y = 0 [Pa]."""
+    across: Array
+    """(n, nz, ny): Largest shear stress along the column nearest to x = 0 [Pa]."""
+
+
 class March:
-    """Goes through the depths, and keeps of each what is largest and the plane y = 0."""
+    """Goes through the depths, and keeps of each what is largest and two planes."""
 
     def __init__(self, depths: Array, settings: Stress, scale: float) -> None:
         self.depths, self.settings, self.scale = depths, settings, scale
         points = np.array(settings.residual or ((0.0, 0.0),))
         self._residual = np.interp(depths, *points.T)
 
-    def through(
-        self, cases: Sequence[Case], spacing: tuple[float, float], row: int | None = None
-    ) -> tuple[Array, Array]:
-        """Return `Worst` of each case and depth, and the components along one row of the nodes.
+    def through(self, cases: Sequence[Case], grid: Grid) -> Marched:
+        """Go through the depths.
 
         Parameters
         ----------
         cases : sequence of Case
             On the same nodes.
-        spacing : (float, float)
-            Mesh widths along y and x [m].
-        row : int or None
-            Which row is kept.
-
-        Returns
-        -------
-        found : (n, nz, 7) array
-            In the order of `Worst` [Pa], places in nodes; ``risk`` in the pressure scale.
-        planes : (n, 6, nz, nx) array
-            [Pa]; of no depth without ``row``.
+        grid : Grid
+            Those nodes.
         """
-        ny, nx = cases[0].loads.pressure.shape
-        space = HalfSpace((ny, nx), spacing, single=True)
-        spectra = [space.spectra_of(*(load / self.scale for load in one.loads)) for one in cases]
-        found = np.empty((len(cases), self.depths.size, len(Worst._fields)))
-        planes = np.empty((len(cases), 6, 0 if row is None else self.depths.size, nx))
+        ny, wide = cases[0].loads.pressure.shape
+        space = HalfSpace((ny, wide), grid.spacing, single=True)
+        bodies = [self._body(case, space) for case in cases]
+        size = len(cases), self.depths.size
+        nx = len(range(*grid.kept.indices(wide)))
+        found = np.empty((*size, len(Worst._fields)))
+        along, across = np.empty((len(cases), 6, self.depths.size, nx)), np.empty((*size, ny))
         limit = self.settings.fatigue_limit / self.scale
         for k, depth in enumerate(self.depths):
             influence = space.influence(float(depth))
-            for number, (case, spectrum) in enumerate(zip(cases, spectra, strict=True)):
-                stress = space.stresses(spectrum, influence, case.poisson_ratio)
-                stress[:2] += self._residual[k] / self.scale
+            for number, body in enumerate(bodies):
+                stress = self._stress(body, space, influence, grid, k)
                 found[number, k] = worst(stress, self.settings, limit)
-                if row is not None:
-                    planes[number, :, k] = stress[:, row] * self.scale
+                along[number, :, k] = stress[:, grid.row] * self.scale
+                across[number, k] = largest_shear(stress[:, :, grid.column]) * self.scale
         found[..., :4] *= self.scale
-        found[..., 4] *= spacing[0]
-        return found, planes
+        found[..., 4] *= grid.spacing[0]
+        return Marched(found, along, across)
+
+    def at(self, case: Case, grid: Grid, level: int) -> Array:
+        """Return the components at one of the depths, (6, ny, nx) [Pa].
+
+        Parameters
+        ----------
+        case, grid : Case, Grid
+            The body and its nodes.
+        level : int
+            Which depth.
+        """
+        space = HalfSpace(case.loads.pressure.shape, grid.spacing, single=True)
+        influence = space.influence(float(self.depths[level]))
+        return self._stress(self._body(case, space), space, influence, grid, level) * self.scale
+
+    def _body(self, case: Case, space: HalfSpace) -> tuple[Any, Case, ThermalStress | None]:
+        """Return the spectra of the loads of a body, itself, and its thermal stress."""
+        heat, loads = None if case.heat is None else ThermalStress(case.heat), list(case.loads)
+        if heat is not None:
+            loads = [one + more for one, more in zip(loads, heat.loads(), strict=True)]
+        return space.spectra_of(*(load / self.scale for load in loads)), case, heat
+
+    def _stress(
+        self,
+        body: tuple[Any, Case, ThermalStress | None],
+        space: HalfSpace,
+        influence: Influence,
+        grid: Grid,
+        level: int,
+    ) -> Array:
+        """Return the components at a depth, over the pressure scale."""
+        spectra, case, heat = body
+        stress = space.stresses(spectra, influence, case.poisson_ratio)[..., grid.kept]
+        if heat is not None:
+            added = heat.stresses(float(self.depths[level]))
+            stress += added[..., grid.kept] / self.scale
+        stress[:2] += self._residual[level] / self.scale
+        return stress
 
     def life(self, found: Array, dry: Array) -> Array:
         r"""Return the life over that of the dry smooth contact, (n,) [-].
@@ -169,57 +223,6 @@ class March:
         return np.asarray(ratio ** (1.0 / self.settings.weibull_slope))
 
 
-def window_of(result: Solution, pressure: Array) -> Window:
-    """Return the nodes around the contact that carry its load.
-
-    Parameters
-    ----------
-    result : Solution
-        Gives the nodes.
-    pressure : (ny, nx) array
-        Of all that carries load [Pa].
-    """
-    scaled, slices, least = result.scaled, [], LEAST_PRESSURE * float(pressure.max())
-    for axis, along in ((scaled.y, 1), (scaled.x, 0)):
-        inside = np.flatnonzero((pressure.max(axis=along) > least) | (np.abs(axis) <= LEAST_WINDOW))
-        first, last = int(inside[0]), int(inside[-1])
-        if (last - first) % 2:  # every second node is one of the window
-            first, last = (first, last + 1) if last + 1 < axis.size else (first + 1, last)
-        slices.append(slice(first, last + 1))
-    widths = result.scales.half_width_y, result.scales.half_width_x
-    steps = [
-        width * (float(axis[1] - axis[0]) if axis.size > 1 else 1.0)
-        for axis, width in zip((scaled.y, scaled.x), widths, strict=True)
-    ]
-    return Window(slices[0], slices[1], (steps[0], steps[1]))
-
-
-def depths_of(result: Solution, settings: Stress, window: Window) -> Array:
-    """Return the depths [m], from two mesh widths on, of rough pressures the larger ones.
-
-    Parameters
-    ----------
-    result : Solution
-        Gives the half-widths.
-    settings : Stress
-        Number of depths and the deepest.
-    window : Window
-        With the mesh widths.
-    """
-    smaller = min(result.scales.half_width_x, result.scales.half_width_y)
-    rough = result.heights is not None or result.contact is not None
-    is_line = result.scaled.y.size == 1
-    step = max(window.spacing) if rough and not is_line else min(window.spacing)
-    shallowest = LEAST_DEPTH * step
-    deepest = max(settings.deepest * smaller, 4.0 * shallowest)
-    return np.geomspace(shallowest, deepest, settings.depths)
-
-
-def cut(loads: SurfaceLoads, window: Window) -> SurfaceLoads:
-    """Return the loads on the nodes of a window, of a part of those on all nodes."""
-    return SurfaceLoads(*(load[window.rows, window.columns] for load in loads))
-
-
 def poisson_ratio(result: Solution, body: int) -> float:
     """Return Poisson's ratio of a body, 1 or 2."""
     surface = result.problem.surface_1 if body == 1 else result.problem.surface_2
@@ -234,22 +237,15 @@ def _dry(result: Solution, window: Window) -> SurfaceLoads:
     return SurfaceLoads(pressure, nothing, nothing)
 
 
-def _halved(loads: SurfaceLoads) -> SurfaceLoads:
-    """Return loads on every second node, by full weighting."""
-    return SurfaceLoads(*(_weighted(_weighted(load).T).T for load in loads))
+def _beside(loads: SurfaceLoads, sides: tuple[int, int]) -> SurfaceLoads:
+    """Return loads with unloaded nodes before and behind them along x."""
+    return SurfaceLoads(*(np.pad(load, ((0, 0), sides)) for load in loads))
 
 
-def _weighted(field: Array) -> Array:
-    """Return [1, 2, 1]/4 over every second row; of a single one the row itself."""
-    if field.shape[0] == 1:
-        return field
-    wide = np.pad(field, ((1, 1), (0, 0)))
-    return np.asarray(0.25 * wide[:-2:2] + 0.5 * field[::2] + 0.25 * wide[2::2])
-
-
-def middle_row(result: Solution, window: Window) -> int:
-    """Return the row of the window nearest to y = 0."""
-    return int(np.argmin(np.abs(result.scaled.y[window.rows])))
+def _coarser(case: Case) -> Case:
+    """Return a case on every second node."""
+    loads, heat = SurfaceLoads(*map(halved, case.loads)), case.heat
+    return Case(loads, case.poisson_ratio, None if heat is None else heat.coarser(halved))
 
 
 def _column(found: Array, name: str) -> Array:

@@ -36,7 +36,7 @@ def loads_on(result: Solution, body: int) -> SurfaceLoads:
     """
     sign = 1.0 if body == 1 else -1.0  # its surface is the lower or the upper end of the film
     film = np.maximum(result.pressure, 0.0)
-    total, rubbing = film.copy(), np.zeros_like(film)
+    total, rubbed = film.copy(), rubbing(result)
     stress_x, stress_y = np.zeros_like(film), np.zeros_like(film)
     shear = result.shear
     if shear is not None and not left_out(result):
@@ -46,14 +46,22 @@ def loads_on(result: Solution, body: int) -> SurfaceLoads:
     problem = result.problem
     if result.contact is not None and problem.contact_film is not None:
         total += result.contact.pressure
-        meet = touching_nodes(result)
-        stress_x[meet] = 0.0
-        rubbing += np.where(meet, problem.contact_film.friction * total, 0.0)
+        stress_x[touching_nodes(result)] = 0.0
     if result.asperities is not None and problem.asperities is not None:
         total += result.asperities.pressure
-        rubbing += problem.asperities.friction * result.asperities.pressure
-    stress_x -= np.sign(problem.slide_roll_ratio) * rubbing
+    stress_x -= np.sign(problem.slide_roll_ratio) * rubbed
     return SurfaceLoads(total, sign * stress_x, sign * stress_y)
+
+
+def rubbing(result: Solution) -> Array:
+    """Return the friction of asperities, and of contact through a boundary film, positive [Pa]."""
+    problem, found = result.problem, np.zeros_like(result.pressure)
+    if result.contact is not None and problem.contact_film is not None:
+        both = np.maximum(result.pressure, 0.0) + result.contact.pressure
+        found += np.where(touching_nodes(result), problem.contact_film.friction * both, 0.0)
+    if result.asperities is not None and problem.asperities is not None:
+        found += problem.asperities.friction * result.asperities.pressure
+    return found
 
 
 def left_out(result: Solution) -> bool:

@@ -7,9 +7,10 @@ import numpy as np
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.stress import Stress
-from tehl.post.stress.below import Case, March, cut, depths_of, middle_row, poisson_ratio, window_of
+from tehl.post.stress.below import Case, Grid, March, poisson_ratio
 from tehl.post.stress.loads import SurfaceLoads
 from tehl.post.stress.measures import Worst, largest_shear
+from tehl.post.stress.window import cut, depths_of, middle_row, window_of
 from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.post.transient import film_at
 from tehl.result.transient import TransientSolution
@@ -59,18 +60,20 @@ def moving_stress(
     window = window_of(start, frames.pressure.max(axis=0))
     depths = depths_of(film_at(run), settings, window)
     march = March(depths, settings, start.scales.hertz_pressure)
-    row, ratio = middle_row(start, window), poisson_ratio(start, body)
+    ratio, columns = poisson_ratio(start, body), window.columns
+    kept = slice(0, columns.stop - columns.start)
+    grid = Grid(window.spacing, kept, middle_row(start, window), 0)
     planes, largest = [], []
     for number in range(frames.step.size):
         case = Case(cut(frame_loads(run, number, body), window), ratio)
-        found, plane = march.through([case], window.spacing, row=row)
-        planes.append(largest_shear(plane[0]))
-        largest.append(found[0])
+        marched = march.through([case], grid)
+        planes.append(largest_shear(marched.along[0]))
+        largest.append(marched.found[0])
     worst = np.array(largest)
     return MovingStress(
         time=run.history.time[frames.step],
         depth=depths,
-        x=start.x[window.columns],
+        x=start.x[columns],
         plane=np.array(planes),
         shear=worst[..., Worst._fields.index("shear")],
         von_mises=worst[..., Worst._fields.index("von_mises")],

@@ -8,6 +8,7 @@ from numpy.polynomial import Polynomial
 
 from tehl.base.typing import Array
 from tehl.contact.stress import Stress
+from tehl.post.stress.thermal import LEAST_THERMAL_PECLET
 from tehl.result.fields import BodyStress
 from tehl.result.solution import Solution
 
@@ -85,6 +86,8 @@ class BodyNumbers:
     """Whether the shear stress is largest at the shallowest depth, so that it may grow above it."""
     traction: float
     """Force of the film on the body along x over the load [-]."""
+    thermal: float | None
+    """E alpha dT/(1 - nu) of the warmest place of its surface [Pa]; None if heat does not count."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -97,6 +100,8 @@ class StressNumbers:
     """The shallowest depth [m]."""
     traction_left_out: bool
     """Whether the shear stress of the film is left out, as no oil can carry it."""
+    too_slow: bool
+    """Whether the heat of a body is left out, as the body is too slow."""
     counts_roughness: bool
     """Whether the pressure is that of rough surfaces: a factor of lambda or kappa on the relative
     life would count the roughness twice."""
@@ -119,6 +124,11 @@ class StressNumbers:
                 self.traction_left_out,
                 "the shear stress of the film is more than any oil can carry, and is left out",
             ),
+            (
+                self.too_slow,
+                "the thermal stress of a body whose solid Peclet number is below "
+                f"{LEAST_THERMAL_PECLET:g} is left out",
+            ),
         )
         return tuple(words for applies, words in known if applies)
 
@@ -136,16 +146,19 @@ def stress_numbers(result: Solution) -> StressNumbers | None:
     settings = result.problem.stress or Stress()
     power = settings.stress_exponent / settings.weibull_slope
     return StressNumbers(
-        bodies=tuple(_numbers(found, row, bar, power) for row in range(found.body.size)),
+        bodies=tuple(_numbers(found, row, bar, power, settings) for row in range(found.body.size)),
         shallowest=float(found.depth[0]),
         traction_left_out=bool(found.left_out),
+        too_slow=settings.thermal and not found.thermal.all(),
         counts_roughness=any(
             part is not None for part in (result.heights, result.contact, result.asperities)
         ),
     )
 
 
-def _numbers(found: BodyStress, row: int, bar: float, power: float) -> BodyNumbers:
+def _numbers(
+    found: BodyStress, row: int, bar: float, power: float, settings: Stress
+) -> BodyNumbers:
     shear, dry = (peak(found.depth, one[row]) for one in (found.shear, found.shear_dry))
     coarse = peak(found.depth, found.shear_coarse[row])
     mises, orthogonal, dang_van, dang_van_dry = (
@@ -173,4 +186,5 @@ def _numbers(found: BodyStress, row: int, bar: float, power: float) -> BodyNumbe
         else None,
         at_shallowest=shear.place == 0,
         traction=float(found.traction[row]),
+        thermal=float(found.thermal[row]) if settings.thermal else None,
     )

@@ -1,0 +1,117 @@
+"""Nodes and depths at which stresses are computed: around the contact, evenly in ln z."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.contact.stress import Stress
+from tehl.post.stress.loads import SurfaceLoads
+from tehl.result.solution import Solution
+
+LEAST_PRESSURE = 1e-2
+"""Pressure over the largest below which nodes at the edges of the domain are left out."""
+LEAST_WINDOW = 1.25
+"""Half-widths of the Hertz contact on each side in which stresses are always computed."""
+WAKE = 2.5
+"""Half-widths behind the window in which the wake of heat still pulls at the contact: twice as many
+change stresses by 1 % of the largest thermal one (balls of steel, solid Peclet number 10)."""
+LEAST_DEPTH = 2.0
+"""Least depth [mesh widths]: above it a rough pressure is not resolved."""
+
+
+class Window(NamedTuple):
+    """Part of the nodes whose loads and stresses count, of an odd number along x and y."""
+
+    rows: slice
+    columns: slice
+    spacing: tuple[float, float]
+    """Mesh widths along y and x [m]."""
+
+
+def window_of(result: Solution, pressure: Array) -> Window:
+    """Return the nodes around the contact that carry its load.
+
+    Parameters
+    ----------
+    result : Solution
+        Gives the nodes.
+    pressure : (ny, nx) array
+        Of all that carries load [Pa].
+    """
+    scaled, slices, least = result.scaled, [], LEAST_PRESSURE * float(pressure.max())
+    for axis, along in ((scaled.y, 1), (scaled.x, 0)):
+        inside = np.flatnonzero((pressure.max(axis=along) > least) | (np.abs(axis) <= LEAST_WINDOW))
+        first, last = int(inside[0]), int(inside[-1])
+        if (last - first) % 2:  # every second node is one of the window
+            first, last = (first, last + 1) if last + 1 < axis.size else (first + 1, last)
+        slices.append(slice(first, last + 1))
+    widths = result.scales.half_width_y, result.scales.half_width_x
+    steps = [
+        width * (float(axis[1] - axis[0]) if axis.size > 1 else 1.0)
+        for axis, width in zip((scaled.y, scaled.x), widths, strict=True)
+    ]
+    return Window(slices[0], slices[1], (steps[0], steps[1]))
+
+
+def depths_of(result: Solution, settings: Stress, window: Window) -> Array:
+    """Return the depths [m], from two mesh widths on, of rough pressures the larger ones.
+
+    Parameters
+    ----------
+    result : Solution
+        Gives the half-widths.
+    settings : Stress
+        Number of depths and the deepest.
+    window : Window
+        With the mesh widths.
+    """
+    smaller = min(result.scales.half_width_x, result.scales.half_width_y)
+    rough = result.heights is not None or result.contact is not None
+    is_line = result.scaled.y.size == 1
+    step = max(window.spacing) if rough and not is_line else min(window.spacing)
+    shallowest = LEAST_DEPTH * step
+    deepest = max(settings.deepest * smaller, 4.0 * shallowest)
+    return np.geomspace(shallowest, deepest, settings.depths)
+
+
+def cut(loads: SurfaceLoads, window: Window) -> SurfaceLoads:
+    """Return the loads on the nodes of a window, of a part of those on all nodes."""
+    return SurfaceLoads(*(load[window.rows, window.columns] for load in loads))
+
+
+def halved(field: Array) -> Array:
+    """Return a field on every second node, by full weighting."""
+    return _weighted(_weighted(field).T).T
+
+
+def _weighted(field: Array) -> Array:
+    """Return [1, 2, 1]/4 over every second row; of a single one the row itself."""
+    if field.shape[0] == 1:
+        return field
+    wide = np.pad(field, ((1, 1), (0, 0)))
+    return np.asarray(0.25 * wide[:-2:2] + 0.5 * field[::2] + 0.25 * wide[2::2])
+
+
+def middle_row(result: Solution, window: Window) -> int:
+    """Return the row of the window nearest to y = 0."""
+    return int(np.argmin(np.abs(result.scaled.y[window.rows])))
+
+
+def wake(result: Solution, settings: Stress, window: Window) -> tuple[int, int]:
+    """Return the nodes before and behind a window that carry the wakes of heated bodies, even.
+
+    Parameters
+    ----------
+    result : Solution
+        Gives the velocities.
+    settings : Stress
+        Says whether heat counts, and of which bodies.
+    window : Window
+        With the mesh widths.
+    """
+    speeds = [result.problem.motion.speed_of(body) for body in settings.bodies]
+    nodes = 2 * math.ceil(0.5 * WAKE * result.scales.half_width_x / window.spacing[1])
+    before, behind = any(speed < 0.0 for speed in speeds), any(speed > 0.0 for speed in speeds)
+    return nodes * (settings.thermal and before), nodes * (settings.thermal and behind)
