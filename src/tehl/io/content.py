@@ -165,6 +165,7 @@ def _parts(result: Solution | TransientSolution) -> Iterator[tuple[Table, Any]]:
             (tables.HISTORY, result.history),
             (tables.PROFILES, result.profiles),
             ((*tables.FRAME_TIMES, *tables.FRAMES), _frame_columns(result)),
+            (tables.FRAME_STRESS, None if result.frames.stress is None else result.frames),
             (tables.BARS, result.bars),
         )
     return ((table, part) for table, part in parts if part is not None)
@@ -301,6 +302,8 @@ def _frames(reader: "Reader", shape: tuple[int, ...], count: int) -> Frames:
     if not ((steps >= 0) & (steps < count)).all():
         raise ValueError("frame_step names steps that are not in the history")
     found = reader.columns(tables.FRAMES)
+    if tables.FRAME_STRESS[0].name in reader.arrays:
+        found |= reader.columns(tables.FRAME_STRESS)
     return Frames(step=steps, **{name: data.astype(np.float32) for name, data in found.items()})
 
 

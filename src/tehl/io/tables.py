@@ -217,6 +217,9 @@ FRAMES = _table(
     ("film", "film_frames", "m", "film thickness of the frames"),
     ("height", "height_frames", "m", "heights of both surfaces of the frames, outwards"),
 )
+FRAME_STRESS = _table(
+    "frame y x", ("stress", "shear_stress_frames", "Pa", "tau_zx at mid-film of the frames")
+)
 BARS = _table(
     "bar",
     ("time", "bar_time", "s", "times of the error bars"),

@@ -84,6 +84,8 @@ class Frames:
     height: SingleArray
     """[Pa], with that of the contact if there is a boundary film; [m]; and the heights of both
     surfaces together [m]."""
+    stress: SingleArray | None = None
+    """tau_zx of the oil at mid-film, of a case with [stress] [Pa]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -229,6 +229,28 @@ def test_a_passing_dent_is_followed_in_time():
         moving_stress(make_transient(frames=False))
 
 
+def test_a_run_in_time_stores_the_shear_stress_of_its_fields(tmp_path):
+    """At time zero the loads are those of the steady film at the start, for a film that thins."""
+    lubricant = CASE["lubricant"] | {"shear": {"law": "eyring", "stress": "8 MPa"}}
+    contact = CASE["contact"] | {"slide_roll_ratio": 0.3}
+    change = {"duration": "0.2 ms", "load": [["0 ms", 1.0], ["0.2 ms", 1.1]], "frames": 2}
+    case = CASE | {"contact": contact, "lubricant": lubricant, "transient": change}
+    problem = tehl.ContactProblem(**case, stress={"body": 2, "depths": 8})
+    run = tehl.solve_transient(problem, tehl.Options(points=65))
+    for body in (1, 2):
+        still, first = loads_on(run.start, body), frame_loads(run, 0, body)
+        largest = np.abs(still.traction_x).max()
+        # 1e-5: single precision; along the film slopes are by differences
+        np.testing.assert_allclose(first.pressure, still.pressure, rtol=1e-5)
+        np.testing.assert_allclose(first.traction_x, still.traction_x, atol=0.02 * largest)
+        assert first.traction_x.sum() == pytest.approx(still.traction_x.sum(), rel=1e-3)
+    run.save(tmp_path / "run.nc")
+    np.testing.assert_array_equal(tehl.load(tmp_path / "run.nc").frames.stress, run.frames.stress)
+    without = replace(run, frames=replace(run.frames, stress=None))
+    even = frame_loads(without, 0, 1)
+    assert even.traction_x.sum() == pytest.approx(frame_loads(run, 0, 1).traction_x.sum(), rel=0.01)
+
+
 def test_a_solve_computes_what_the_case_asks_for():
     """Film and pressure have the bits of a case without the table."""
     options = tehl.Options(points=65)

@@ -83,10 +83,10 @@ def moving_stress(
 def frame_loads(run: TransientSolution, frame: int, body: int) -> SurfaceLoads:
     """Return the loads on a body at a stored field.
 
-    A run stores the traction of its film and the load of asperities over time, and pressure and
-    film over the nodes: the sliding part of the traction, and the pressure of asperities finer than
-    the grid, have the distribution of the pressure; the rolling part is exact. A traction that no
-    oil can carry is left out.
+    The stress at mid-film is that of the field. A run without [stress] has stored only its traction
+    coefficient over time: that has the distribution of the pressure. The rolling part is exact. The
+    load of asperities finer than the grid, and their friction, have the distribution of the
+    pressure too. A traction that no oil can carry is left out.
 
     Parameters
     ----------
@@ -100,15 +100,22 @@ def frame_loads(run: TransientSolution, frame: int, body: int) -> SurfaceLoads:
     film, problem, step = film_at(run, frame), run.start.problem, run.frames.step[frame]
     pressure = np.maximum(film.pressure, 0.0)
     traction, share = run.history.traction[step], run.history.asperity_load[step]
-    solid = problem.asperities or problem.contact_film
-    sliding = traction if abs(traction) <= LARGEST_CREDIBLE else 0.0
-    if solid is not None:
-        sliding -= np.sign(problem.slide_roll_ratio) * solid.friction * share
     total = pressure / (1.0 - share) if problem.asperities is not None else pressure
-    sign = 1.0 if body == 1 else -1.0
+    stored, sign = run.frames.stress, 1.0 if body == 1 else -1.0
+    sliding = traction * total if stored is None else np.where(pressure > 0.0, stored[frame], 0.0)
+    if not abs(traction) <= LARGEST_CREDIBLE:
+        sliding = np.zeros_like(total)
+    rubbed = 0.0 * total
+    if problem.asperities is not None:
+        rubbed += problem.asperities.friction * share * total
+    if problem.contact_film is not None:
+        rubbed += (
+            problem.contact_film.friction * total * problem.contact_film.meets(film.film_thickness)
+        )
+    sliding = sliding - np.sign(problem.slide_roll_ratio) * rubbed
     along_y, along_x = (
         np.gradient(pressure, axis, axis=k) if axis.size > 1 else np.zeros_like(pressure)
         for k, axis in enumerate((film.y, film.x))
     )
     half = 0.5 * film.film_thickness
-    return SurfaceLoads(total, sign * sliding * total - half * along_x, -half * along_y)
+    return SurfaceLoads(total, sign * sliding - half * along_x, -half * along_y)

@@ -4,6 +4,7 @@ from dataclasses import asdict
 
 import numpy as np
 
+from tehl.base.typing import Array
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState
 from tehl.operators.film import dry_pressure
@@ -104,6 +105,21 @@ def _spike(level: Level) -> dict[str, float]:
     return {"spike": float(pressure.flat[excess.argmax()]), "excess": float(excess.max())}
 
 
+def mid_film_stress(level: Level, scaled: ScaledProblem, state: FilmState | None) -> Array:
+    """Return the stress tau_zx of the oil at mid-film, zero where surfaces touch, [-].
+
+    Parameters
+    ----------
+    level, scaled : Level, ScaledProblem
+        The grid, and the contact.
+    state : FilmState or None
+        Stress of a heated or shear-thinning film.
+    """
+    found = newtonian_sliding(level, scaled) if state is None else state.view("tau_x").T.copy()
+    found[level.share.meets(level)] = 0.0
+    return found
+
+
 def mid_film_traction(
     level: Level, scaled: ScaledProblem, state: FilmState | None, load: float = 1.0
 ) -> float:
@@ -121,9 +137,8 @@ def mid_film_traction(
     load : float
         Load over that of the contact [-].
     """
-    stress = newtonian_sliding(level, scaled) if state is None else state.view("tau_x").T
-    wet, scales = stress * zone_of(level.grid) * wet_part(level.film.p), scaled.scales
-    wet[level.share.meets(level)] = 0.0
+    stress, scales = mid_film_stress(level, scaled, state), scaled.scales
+    wet = stress * zone_of(level.grid) * wet_part(level.film.p)
     area = scales.half_width_x * scales.half_width_y
     unit = stress_unit(scales) * area / (scales.load * load)
     return level.equations.load.integral(wet) * unit

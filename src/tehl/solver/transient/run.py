@@ -22,7 +22,7 @@ from tehl.result.transient import StepReport, TransientSolution
 from tehl.solver.cost import Clock
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
-from tehl.solver.judging.measures import is_resolved, mid_film_traction
+from tehl.solver.judging.measures import is_resolved, mid_film_stress, mid_film_traction
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import Attempt, finest_grid, try_strategies
 from tehl.solver.transient.checks import check_load, check_stride, check_waves
@@ -170,7 +170,11 @@ class Run:
             "cycles": end.cycles if end else 0,
             "change": end.change if end else 0.0,
         }
-        self.record.note(self.level, heights, numbers, keep=step in self.kept)
+        keep, stress = step in self.kept, None
+        if keep and self.problem.stress is not None:
+            state = self.stepper.solver.coupling.state
+            stress = mid_film_stress(self.level, self.scaled, state)
+        self.record.note(self.level, heights, numbers, keep=keep, stress=stress)
 
     def _report(self, step: int, end: StepEnd) -> StepReport:
         _, _, central, minimum, *_ = self.record.rows[-1]
@@ -223,7 +227,7 @@ class Run:
         if _shapes(snapshot.fields) != _shapes(self.snapshot().fields):
             raise InputError(f"the checkpoint has another grid than the case, or is damaged{ANEW}")
         record, grid = snapshot.record, self.level.grid
-        steps = np.arange(len(record.rows))
+        steps, fields = np.arange(len(record.rows)), 3 + (self.problem.stress is not None)
         times = np.array([row[0] for row in record.rows])
         fitting = (
             steps.size <= self.steps + 1
@@ -231,7 +235,7 @@ class Run:
             and np.allclose(times, steps * self.seconds, rtol=1e-9, atol=0.0)
             and record.profiles[0].shape[-1] == grid.nx
             and record.frame_steps == [step for step in steps if step in self.kept]
-            and all(frame.shape[1:] == (grid.ny, grid.nx) for frame in record.frames)
+            and all(frame.shape == (fields, grid.ny, grid.nx) for frame in record.frames)
         )
         if not fitting:
             raise InputError(f"the checkpoint has other steps than the case, or is damaged{ANEW}")

@@ -14,6 +14,7 @@ from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.transient import Transient
 from tehl.estimate.scaling import Scales
+from tehl.operators.heated_film import stress_unit
 from tehl.result.solution import Cost
 from tehl.result.transient import Frames, History, Profiles
 from tehl.solver.cycle.level import Level
@@ -34,10 +35,10 @@ _LAYOUT: dict[str, tuple[type, tuple[str | int, ...]]] = {
     "rows": (np.float64, ("steps", len(COLUMNS))),
     "profiles": (np.float64, ("steps", 4, "nodes")),
     "frame_steps": (np.int64, ("frames",)),
-    "frames": (np.float32, ("frames", 3, "rows", "columns")),
+    "frames": (np.float32, ("frames", "fields", "rows", "columns")),
 }
 """Number type and shape of all arrays but the fields. A profile has pressure, film and both
-heights, a frame pressure, film and height."""
+heights, a frame pressure, film and height, and the stress at mid-film if the case has [stress]."""
 
 
 def carried(level: Level) -> Array:
@@ -56,10 +57,16 @@ class Record:
     frame_steps: list[int] = field(default_factory=list)
     """Steps whose fields are stored."""
     frames: list[Array] = field(default_factory=list)
-    """Their pressure, film and height, (3, ny, nx)."""
+    """Their pressure, film and height, and stress if it is asked for, (3 or 4, ny, nx)."""
 
     def note(
-        self, level: Level, heights: Heights, numbers: dict[str, float], *, keep: bool
+        self,
+        level: Level,
+        heights: Heights,
+        numbers: dict[str, float],
+        *,
+        keep: bool,
+        stress: Array | None = None,
     ) -> None:
         """Append a step.
 
@@ -73,6 +80,8 @@ class Record:
             Columns of the history besides film, pressure and rigid approach.
         keep : bool
             Store the fields too.
+        stress : array or None
+            At mid-film, stored with them [-].
         """
         film = film_summary(level.grid, level.film.h, level.equations.contact_film)
         row = numbers | {
@@ -91,7 +100,8 @@ class Record:
         if keep:
             self.frame_steps.append(len(self.rows) - 1)
             together = heights[0] + heights[1]
-            whole = [level.grid.unfold(one) for one in (pressure, level.film.h, together)]
+            stored = (pressure, level.film.h, together, *(() if stress is None else (stress,)))
+            whole = [level.grid.unfold(one) for one in stored]
             self.frames.append(np.stack(whole).astype(np.float32))
 
     def copy(self) -> "Record":
@@ -133,12 +143,18 @@ class Record:
             Nodes (ny, nx) of the full domain.
         """
         stack = np.stack(self.frames) if self.frames else np.zeros((0, 3, *shape), np.float32)
-        units = (scales.hertz_pressure, scales.film_thickness, scales.film_thickness)
-        pressure, film, height = (
-            np.asarray(stack[:, k] * np.float32(unit), np.float32) for k, unit in enumerate(units)
+        thickness = scales.film_thickness
+        units = (scales.hertz_pressure, thickness, thickness, stress_unit(scales))
+        pressure, film, height, *stress = (
+            np.asarray(field * np.float32(unit), np.float32)
+            for field, unit in zip(np.moveaxis(stack, 1, 0), units, strict=False)
         )
         return Frames(
-            step=np.array(self.frame_steps, np.int64), pressure=pressure, film=film, height=height
+            step=np.array(self.frame_steps, np.int64),
+            pressure=pressure,
+            film=film,
+            height=height,
+            stress=stress[0] if stress else None,
         )
 
 
