@@ -14,6 +14,8 @@ from tehl.explore.colour_map import (
     film_picture,
     pressure_limits,
     pressure_picture,
+    stress_limits,
+    stress_picture,
     value_at,
 )
 from tehl.explore.curves import Point, line_charts, line_tops, swept_chart, values_on_line
@@ -27,7 +29,7 @@ SIZE = (640.0, 560.0)
 
 @pytest.fixture
 def seen(result):
-    return shown(result, explain(result.problem, result.options), fringes=True)
+    return shown(result, explain(result.problem, result.options), view="fringes")
 
 
 def test_ticks_are_round_and_inside():
@@ -91,6 +93,20 @@ def test_the_interferogram_is_an_image_of_bytes(seen):
     assert seen.fringes.shape[2] == 3
 
 
+def test_the_stress_is_drawn_below_the_surface_where_it_is_asked_for(result):
+    found = shown(result, explain(result.problem, result.options), view="stress")
+    deep = found.stress
+    body = result.with_stress().stress_numbers.worse
+    assert deep.shear.max() == pytest.approx(body.shear * 1e-9, rel=1e-2)
+    row = int(deep.shear.max(axis=1).argmax())
+    assert deep.z[row] == pytest.approx(-1e6 * body.shear_depth, rel=0.1)
+    picture = stress_picture(deep, found.maps, stress_limits(deep), SIZE)
+    assert picture.image.startswith("data:image")
+    assert f"below surface {body.body}" in picture.overlay
+    assert picture.frame.y(-10.0) > picture.frame.y(0.0)
+    assert shown(result, explain(result.problem, result.options)).stress is None
+
+
 def test_centre_lines_and_sweeps_are_drawings(seen):
     charts = line_charts(seen, SIZE, line_tops(seen.lines))
     assert [chart.overlay.count("<svg") for chart in charts] == [1, 1]
@@ -130,7 +146,7 @@ def test_a_line_contact_is_a_strip_of_equal_lines():
         ball_tables(contact=contact | {"entrainment_speed": 1.5})
     )
     result = tehl.solve(problem, tehl.Options(points=257))
-    found = shown(result, explain(problem, result.options), fringes=True)
+    found = shown(result, explain(problem, result.options), view="fringes")
     assert found.fringes is not None
     np.testing.assert_array_equal(found.maps.film[0], found.maps.film[-1])
     for draw, limits in ((film_picture, film_limits), (pressure_picture, pressure_limits)):

@@ -14,7 +14,7 @@ from PIL import Image
 
 from tehl.base.typing import Array
 from tehl.explore.axes import Frame, Picture, Scale, number_text, svg, text, ticks, turned
-from tehl.explore.shown import Maps, Section, Shown, Span
+from tehl.explore.shown import Deep, Maps, Section, Shown, Span
 
 _LEFT_MARGIN, _RIGHT_MARGIN, _TOP_MARGIN, _BOTTOM_MARGIN, _BARE_MARGIN = (
     58.0,
@@ -132,6 +132,27 @@ def section_picture(
         parts += f'<path d="M{at:.1f} {frame.y.start}V{frame.y.end}" class="hertz"/>'
     parts += frame.svg(_X_LABEL, "z / h, from surface 1 to 2")
     return _coloured(section.rise, axes, frame, look, parts, "temperature rise across the film")
+
+
+def stress_limits(found: Deep) -> Limits:
+    """Return the colours of a shear stress."""
+    return Limits(0.0, max(float(found.shear.max()), 1e-6))
+
+
+def stress_picture(found: Deep, maps: Maps, limits: Limits, size: tuple[float, float]) -> Picture:
+    """Draw the shear stress in the plane y = 0, below a surface, at one scale along x and z."""
+    axes = (found.x, found.z)
+    span = float(found.x[0]), float(found.x[-1])
+    frame = _frame((span, (float(found.z[0]), 0.0)), 1.0, size, _RIGHT_MARGIN)
+    levels = ticks(limits.low, limits.high, 8)[1:]
+    look = Look(limits, levels, "viridis", "largest shear stress [GPa]")
+    parts = _contours(found.shear, axes, frame, look.levels)
+    for edge in (-maps.half_widths[0], maps.half_widths[0]):
+        at = frame.x(edge)
+        parts += f'<path d="M{at:.1f} {frame.y.end}v14" class="hertz"/>'
+    parts += text(frame.x.start, frame.y.end - 12, found.words, "small", "start")
+    parts += frame.svg(_X_LABEL, "z into the body [µm]")
+    return _coloured(found.shear, axes, frame, look, parts, "shear stress on y = 0")
 
 
 def heights_picture(

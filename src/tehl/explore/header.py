@@ -28,6 +28,7 @@ PICTURES = {
     "lines": "centre_lines",
     "temperature": "temperature_section",
     "fringes": "interferogram_white",
+    "stress": "stress",
     "relief": "film",
 }
 """Pictures of the package that show a view."""

@@ -47,8 +47,8 @@ class Ask:
     """Tables of the case, with paths of its files."""
     quick: bool = False
     """Whether the coarse grid suffices."""
-    fringes: bool = False
-    """Whether the interferogram is shown."""
+    view: str = ""
+    """View of the page: the interferogram and stresses are computed for theirs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,7 +193,7 @@ class Desk:
         for stage, final in self.stages(steady(problem), options, found, quick=ask.quick):
             result = self.result(steady(problem), stage)
             if final or result.status.converged:
-                yield Part(shown(result, found, fringes=ask.fringes), final)
+                yield Part(shown(result, found, view=ask.view), final)
             else:
                 yield too_coarse(stage, options, found, quick=ask.quick)
 

@@ -12,6 +12,7 @@ from tehl.explore.colour_map import (
     fringes_picture,
     pressure_picture,
     section_picture,
+    stress_picture,
     value_at,
 )
 from tehl.explore.curves import line_charts, values_on_line
@@ -84,13 +85,14 @@ class Slot:
             return values_on_line(shown.lines, self.charts, right, down)
         if picture is None or shown is None:
             return ""
-        values = _rise if self.view == "temperature" else _values
+        values = {"temperature": _rise, "stress": _shear}.get(self.view, _values)
         return values(shown, picture.frame.x.data(right), picture.frame.y.data(down))
 
 
 _REASONS = {
     "temperature": "This contact is isothermal. Switch the heat on under “Heat”.",
     "fringes": "The interferogram is being computed.",
+    "stress": "The stress is being computed.",
 }
 
 
@@ -102,6 +104,9 @@ def _picture(
         if section is None:
             return None
         return section_picture(section, shown.maps, limits["temperature"], size)
+    if view == "stress":
+        deep = shown.stress
+        return deep and stress_picture(deep, shown.maps, limits["stress"], size)
     if view == "fringes":
         return None if shown.fringes is None else fringes_picture(shown, size)
     if view == "pressure":
@@ -127,6 +132,12 @@ def _rise(shown: Shown, x: float, zeta: float) -> str:
     if rise is None:
         return ""
     return f"x = {x:.0f} µm, z/h = {zeta:.2f}:  {section.inlet + rise:.4g} °C, {rise:+.3g} K"
+
+
+def _shear(shown: Shown, x: float, z: float) -> str:
+    deep = shown.stress
+    value = None if deep is None else value_at(deep.x, deep.z, deep.shear, x, z)
+    return "" if value is None else f"x = {x:.0f} µm, {-z:.0f} µm deep:  {value:.3g} GPa"
 
 
 class PicturePanel:

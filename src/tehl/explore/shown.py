@@ -9,6 +9,9 @@ from tehl.base.typing import Array
 from tehl.explore.numbers import Number, numbers
 from tehl.plots.frame import WINDOW, span_part, stretched, window, window_part
 from tehl.plots.interferogram import Optics, colours
+from tehl.plots.stress import DEEPEST_SHOWN, finer
+from tehl.post.stress.influence import COMPONENTS
+from tehl.post.stress.measures import largest_shear
 from tehl.report.explain import Explanation
 from tehl.result.solution import Settings
 
@@ -68,6 +71,19 @@ class Section:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Deep:
+    """Largest shear stress below the more stressed surface, on y = 0."""
+
+    x: Array
+    z: Array
+    """[um]; z is negative below the surface."""
+    shear: Array
+    """(nz, nx) [GPa]."""
+    words: str
+    """Which surface, and its largest values."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Outcome:
     """How a solve ended, in words."""
 
@@ -94,10 +110,20 @@ class Shown:
     fringes: Array | None
     """Interferogram in white light, (rows, columns, 3) from the largest y down; None unless it was
     asked for."""
+    stress: Deep | None
+    """None unless it was asked for."""
 
 
-def shown(result: Result, explanation: Explanation, *, fringes: bool) -> Shown:
-    """Return what the page shows of a result; ``fringes`` includes the interferogram."""
+def shown(result: Result, explanation: Explanation, *, view: str = "") -> Shown:
+    """Return what the page shows of a result.
+
+    Parameters
+    ----------
+    result, explanation : Result, Explanation
+        The result, and what formulas say about its case.
+    view : str
+        Interferogram and stresses are computed for the views ``fringes`` and ``stress``.
+    """
     scaled = result.scaled
     return Shown(
         points=(scaled.x.size, scaled.y.size),
@@ -107,7 +133,8 @@ def shown(result: Result, explanation: Explanation, *, fringes: bool) -> Shown:
         maps=maps_of(result),
         lines=_lines(result),
         section=_section(result),
-        fringes=_fringes(result) if fringes else None,
+        fringes=_fringes(result) if view == "fringes" else None,
+        stress=_stress(result) if view == "stress" else None,
     )
 
 
@@ -213,6 +240,28 @@ def _section(result: Result) -> Section | None:
         x=result.x[columns] * 1e6,
         rise=_single(CubicSpline(heat.zeta, rise, axis=0)(np.linspace(0.0, 1.0, _SECTION_POINTS))),
         inlet=inlet - 273.15,
+    )
+
+
+def _stress(result: Result) -> Deep | None:
+    """Return the section of the stress below the more stressed surface; None without a film."""
+    if not result.status.converged:
+        return None
+    stressed = result if result.stress is not None else result.with_stress()
+    found, numbers = stressed.stress, stressed.stress_numbers
+    assert found is not None
+    assert numbers is not None
+    body = numbers.worse
+    row = int(np.argmax(found.body == body.body))
+    shear = largest_shear(np.array([getattr(found, name)[row] for name in COMPONENTS]))
+    smaller = min(result.scales.half_width_x, result.scales.half_width_y)
+    depth, shear = finer(found.depth, shear * 1e-9, DEEPEST_SHOWN * smaller)
+    return Deep(
+        x=found.x * 1e6,
+        z=-depth[::-1] * 1e6,
+        shear=_single(shear[::-1]),
+        words=f"below surface {body.body}: {body.shear * 1e-9:.4g} GPa at most, "
+        f"{body.shear_depth * 1e6:.4g} µm deep, {body.shear_ratio:.3g} times that of dry contact",
     )
 
 

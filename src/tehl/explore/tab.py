@@ -10,7 +10,7 @@ from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.base.errors import InputError
 from tehl.explore.by_formula import scaled_by_formula
 from tehl.explore.case_text import CaseText
-from tehl.explore.colour_map import film_limits, pressure_limits, section_limits
+from tehl.explore.colour_map import film_limits, pressure_limits, section_limits, stress_limits
 from tehl.explore.controls import groups
 from tehl.explore.curves import line_tops
 from tehl.explore.files import Files
@@ -25,11 +25,14 @@ VIEWS = {
     "lines": "Centre lines",
     "temperature": "Temperature",
     "fringes": "Interferogram",
+    "stress": "Stress",
     "relief": "3-D film",
     "movie": "Movie",
     "curves": "Curves",
 }
 """Views of a contact, by name."""
+ON_REQUEST = {"fringes": "the interferogram", "stress": "the stress"}
+"""Views that are computed when they are shown."""
 _UNDONE = 50
 _LEAST_COLOUR_RANGE = 1.1
 """Largest film with a colour over the central one, at least."""
@@ -235,7 +238,7 @@ class Tab:
         problem = self.problem
         assert problem is not None
         self.is_busy, self.note, self.coarse = True, "", ""
-        ask = Ask(tables=tables, quick=self.is_moving, fringes=self.view == "fringes")
+        ask = Ask(tables=tables, quick=self.is_moving, view=self.view)
         self.solver.submit(self.owner, ask, lambda message: self._receive(number, problem, message))
         if self.is_old:
             self.latest = None
@@ -324,14 +327,15 @@ class Tab:
     def show(self, view: str) -> None:
         """Choose what is shown."""
         self.view = view
-        if view == "fringes" and (self.shown is None or self.shown.fringes is None):
+        if view in ON_REQUEST and getattr(self.shown, view, None) is None:
             self.solve()
-        if view == "fringes" and self.pinned is not None and self.pinned.shown.fringes is None:
-            self._complete(self.pinned)
+        pinned = self.pinned
+        if view in ON_REQUEST and pinned is not None and getattr(pinned.shown, view) is None:
+            self._complete(pinned, view)
         self.notify("picture")
 
-    def _complete(self, pinned: Pinned) -> None:
-        """Compute the interferogram of a pinned state, which the worker may still hold."""
+    def _complete(self, pinned: Pinned, view: str) -> None:
+        """Compute a view of a pinned state, which the worker may still hold."""
 
         def receive(message: Any) -> None:
             if self.pinned is not pinned:
@@ -340,9 +344,9 @@ class Tab:
                 self.pinned = replace(pinned, shown=message.shown)
                 self.notify("picture")
             elif isinstance(message, Failure):
-                self._blame(f"the interferogram of the pinned state: {message.text}", "")
+                self._blame(f"{ON_REQUEST[view]} of the pinned state: {message.text}", "")
 
-        ask = Ask(tables=self.files.resolved(pinned.case.tables), fringes=True)
+        ask = Ask(tables=self.files.resolved(pinned.case.tables), view=view)
         self.solver.submit(f"{self.owner} pinned", ask, receive)
 
     def _fit(self) -> None:
@@ -357,6 +361,8 @@ class Tab:
         }
         if shown.section is not None:
             wanted["temperature"] = section_limits(shown.section)
+        if shown.stress is not None:
+            wanted["stress"] = stress_limits(shown.stress)
         if self.held or self.is_moving:
             film, pressure = (
                 max(ends)

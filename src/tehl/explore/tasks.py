@@ -135,6 +135,8 @@ def _content(result: Result | TransientResult, kind: str) -> bytes:
         return pages.report_text(result).encode("utf-8")
 
     name, _, ending = kind.partition(".")
+    if isinstance(result, Result) and name == "stress" and result.stress is None:
+        result = result.with_stress()
     pictures = plots.pictures_of(result)
     if isinstance(result, Result):
         pictures = pictures | plots.INTERFEROGRAMS
