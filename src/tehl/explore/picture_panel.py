@@ -106,7 +106,7 @@ def _picture(
         return section_picture(section, shown.maps, limits["temperature"], size)
     if view == "stress":
         deep = shown.stress
-        return deep and stress_picture(deep, shown.maps, limits["stress"], size)
+        return None if deep is None else stress_picture(deep, shown.maps, limits["stress"], size)
     if view == "fringes":
         return None if shown.fringes is None else fringes_picture(shown, size)
     if view == "pressure":

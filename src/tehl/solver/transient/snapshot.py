@@ -231,6 +231,8 @@ def _faults(arrays: Arrays) -> Iterator[str]:
     steps, kept = len(arrays["rows"]), arrays["frame_steps"]
     if not steps or (np.diff(kept) <= 0).any() or ((kept < 0) | (kept >= steps)).any():
         yield f"'frame_steps' are not increasing steps below {steps}"
+    if arrays["frames"].shape[1] not in (3, 4):
+        yield f"'frames' have {arrays['frames'].shape[1]} fields in place of 3 or 4"
     if (arrays["cost"] < 0.0).any():
         yield "'cost' is negative"
     last = dict(zip(COLUMNS, arrays["rows"][-1], strict=True))
