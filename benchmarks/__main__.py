@@ -11,6 +11,7 @@ from benchmarks import (
     asperities,
     deformation,
     domain,
+    line_page,
     mixed,
     order,
     pairs,
@@ -36,6 +37,7 @@ TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "mixed": mixed.table,
     "touching": touching.tables,
     "pairs": pairs.table,
+    "rolling": line_page.tables,
 }
 BY_DEFAULT = ("speed", "rate", "deformation")
 

@@ -139,7 +139,6 @@ def test_a_certified_line_has_bars():
 @pytest.mark.parametrize(
     ("tables", "why"),
     [
-        ({"contact_film": {"thickness": "5 nm"}}, "oil cannot flow round"),
         ({"supply": {"layer": "0.2 um", "track": "0.2 m"}}, "no oil flows aside"),
         ({"dynamics": {}}, "approach each other without limit"),
     ],

@@ -38,7 +38,7 @@ def rolling_friction(result: Solution) -> Rolling | None:
         return None
     x, pressure, film = result.scaled.x, result.scaled.pressure[0], result.scaled.film[0]
     upstream = NOTHING
-    if problem.supply is None:
+    if result.oil is None or result.oil.fill[0, 0] == 1.0:  # the oil reaches further upstream
         peak = int(np.argmax(pressure))
         density = problem.lubricant.density.density(
             result.pressure[0, peak], result.scales.temperature

@@ -75,7 +75,7 @@ def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
         The grid, and the contact.
     """
     film, upstream = level.film, NOTHING
-    if scaled.problem.supply is None:
+    if scaled.problem.supply is None or film.partial[0, 0] == 0:  # oil reaches further upstream
         peak, inlet = int(film.p[0].argmax()), float(film.h[0, 0])
         flux = min(float(film.rho[0, peak] * film.h[0, peak]), inlet)
         upstream = beyond(level.grid.domain.x[0], inlet, flux, scaled.entering)
