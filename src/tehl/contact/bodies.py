@@ -17,6 +17,40 @@ class Radii:
     x: float
     y: float
     """Along and across entrainment [m]; infinite for a flat, negative for a hollow surface."""
+    twist: float = 0.0
+    """Mixed curvature t of the gap x^2/(2 R_x) + t x y + y^2/(2 R_y) of a contact [1/m]."""
+
+    def turned(self, angle: float) -> "Radii":
+        """Return the curvature of the gap along and across an entrainment at an angle to x.
+
+        Parameters
+        ----------
+        angle : float
+            From the x axis of this gap, which has no twist, counter-clockwise [rad].
+        """
+        angle = math.remainder(math.degrees(angle), 180.0)  # of which quarters are exact
+        if angle == 0.0 or self.x == self.y:
+            return self
+        if abs(angle) == 90.0:
+            return Radii(x=self.y, y=self.x)
+        cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+        first, second = 1.0 / self.x, 1.0 / self.y
+        return Radii(
+            x=1.0 / (first * cosine**2 + second * sine**2),
+            y=1.0 / (first * sine**2 + second * cosine**2),
+            twist=(second - first) * sine * cosine,
+        )
+
+    def principal(self) -> tuple["Radii", float]:
+        """Return the gap along its axes, the smaller radius first, and the angle of that [rad].
+
+        The angle is that from x, counter-clockwise.
+        """
+        first, second = 1.0 / self.x, 1.0 / self.y
+        most = 0.5 * (first + second) + math.hypot(0.5 * (first - second), self.twist)
+        least = (first * second - self.twist**2) / most
+        angle = 0.5 * math.atan2(2.0 * self.twist, first - second)
+        return Radii(x=1.0 / most, y=1.0 / least), angle
 
 
 def reduced_radius(first: float, second: float) -> float:

@@ -12,23 +12,60 @@ the radii obey :math:`R_{long}/R_{short} = k^2 B / D`. Written with B and D
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class HertzContact:
-    """Dry contact with axes along and across entrainment."""
+    """Dry contact, along and across entrainment."""
 
     half_width_x: float
     half_width_y: float
-    """a_x and a_y [m]."""
+    """a_x and a_y [m]: the largest x and y, on an ellipse at an angle not on its axes."""
     pressure: float
     """Largest pressure p_h [Pa]."""
     approach: float
     """Approach of the bodies [m]; not a number for a line."""
     ellipticity: float
     """kappa = a_y / a_x [-]; infinite for a line."""
+    skew: float = 0.0
+    """s of the rim X^2 - 2 s X Y + Y^2 = 1 - s^2 in these half-widths; zero on the axes [-]."""
+
+    def turned(self, angle: float) -> "HertzContact":
+        """Return the same contact with its x axis at an angle to x.
+
+        Parameters
+        ----------
+        angle : float
+            Counter-clockwise [rad]; this contact has no skew.
+        """
+        first, second = self.half_width_x**2, self.half_width_y**2
+        cosine, sine = math.cos(angle), math.sin(angle)
+        along = math.sqrt(first * cosine**2 + second * sine**2)
+        across = math.sqrt(first * sine**2 + second * cosine**2)
+        return replace(
+            self,
+            half_width_x=along,
+            half_width_y=across,
+            ellipticity=across / along,
+            skew=(first - second) * sine * cosine / (along * across),
+        )
+
+    @property
+    def axes(self) -> tuple[float, float, float]:
+        """Half-axes [m], the smaller first unless they lie along x and y; the angle of that [rad].
+
+        The angle is that from x, counter-clockwise.
+        """
+        if self.skew == 0.0:
+            return self.half_width_x, self.half_width_y, 0.0
+        along, across = self.half_width_x**2, self.half_width_y**2
+        mixed = self.skew * self.half_width_x * self.half_width_y
+        long = 0.5 * (along + across) + math.hypot(0.5 * (along - across), mixed)
+        area = self.half_width_x * self.half_width_y * math.sqrt(1.0 - self.skew**2)
+        angle = 0.5 * math.atan2(-2.0 * mixed, across - along)
+        return area / math.sqrt(long), math.sqrt(long), angle
 
     @property
     def mean_pressure(self) -> float:

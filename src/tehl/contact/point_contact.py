@@ -26,7 +26,7 @@ from tehl.contact.boundary_contact import ContactFilm
 from tehl.contact.cooling import Cooling
 from tehl.contact.dynamics import Dynamics
 from tehl.contact.heat import FilmEnergy, Thermal
-from tehl.contact.hertz import HertzContact, ellipticity
+from tehl.contact.hertz import HertzContact
 from tehl.contact.materials import NamedSolid, reduced_modulus
 from tehl.contact.shape import LINE, Ellipse, Shape
 from tehl.contact.stress import Stress
@@ -168,6 +168,7 @@ class Contact(_WithRadii):
         "radius_x": "rx r_x radius_1",
         "radius_y": "ry r_y radius_2",
         "radius": "r",
+        "entrainment_angle": "angle entrainment_direction theta",
         "lubricant.temperature": "temperature oil_temperature",
     }
 
@@ -188,6 +189,9 @@ class Contact(_WithRadii):
     entrainment_speed: Speed | None = None
     moes_speed: PositiveNumber | None = None
     """Exactly one: u_m [m/s] or L [-]."""
+    entrainment_angle: Direction = 0.0
+    """Angle from the axis of radius_x to the entrainment, counter-clockwise [rad]; radii, of the
+    surfaces too, are those along the axes of the ellipse, while x is along the entrainment."""
     slide_roll_ratio: Number = 0.0
     """(u_1 - u_2) / u_m [-]."""
     sliding_angle: Direction = 0.0
@@ -204,6 +208,16 @@ class Contact(_WithRadii):
             raise ValueError(f"states {other}: a {self.type} contact takes {own}")
         if self.is_line and self.radius_x is not None:
             raise ValueError("states radius_x and radius_y: a line contact takes radius")
+        if self.is_line and self.entrainment_angle != 0.0:
+            raise ValueError(
+                "states entrainment_angle: along a line contact nothing changes, so only the speed "
+                "across it makes a film; state that alone"
+            )
+        if not abs(self.entrainment_angle) <= 2.0 * math.pi:
+            raise ValueError(
+                f"states entrainment_angle = {self.entrainment_angle:g} rad, more than a turn: a "
+                'bare number is in radians, write "45 deg"'
+            )
         self._exactly_one(own, "hertz_pressure", "moes_load")
         self._exactly_one("entrainment_speed", "moes_speed")
         return self
@@ -264,16 +278,17 @@ class PointContact(Table):
 
     @property
     def radii(self) -> Radii:
-        """Return the reduced radii; across the entrainment that of a line contact is infinite."""
+        """Return the reduced radii along and across the entrainment; of a line that is infinite."""
         first, second = self.surface_1.radii, self.surface_2.radii
+        if self.contact.is_line and self.contact.radii is not None:
+            return Radii(x=self.contact.radii.x, y=math.inf)
         if self.contact.radii is not None:
-            x, y = self.contact.radii.x, self.contact.radii.y
-            return Radii(x=x, y=math.inf if self.contact.is_line else y)
+            return self.contact.radii.turned(self.contact.entrainment_angle)
         if first is None or second is None:
             raise ValueError("no radii")
         if self.contact.is_line:
             return Radii(x=reduced_radius(first.x, second.x), y=math.inf)
-        return reduced_radii(first, second)
+        return reduced_radii(first, second).turned(self.contact.entrainment_angle)
 
     @property
     def radius_x(self) -> float:
@@ -290,9 +305,7 @@ class PointContact(Table):
         """Return the shape of the contact."""
         if self.contact.is_line:
             return LINE
-        radii = self.radii
-        ratio = ellipticity(radii.x, radii.y)
-        return Ellipse(ellipticity=ratio, radius_ratio=radii.x / radii.y)
+        return Ellipse.of(self.radii)
 
     @property
     def reduced_modulus(self) -> float:
@@ -481,7 +494,7 @@ class PointContact(Table):
         """Whether the problem is symmetric in y, so that half of the domain suffices."""
         if self.contact.is_line:
             return True
-        if not self.motion.is_plain:
+        if self.radii.twist or not self.motion.is_plain:
             return False
         supply = self.supply is None or self.supply.is_even_in_y
         surfaces = self.surface_1.roughness, self.surface_2.roughness

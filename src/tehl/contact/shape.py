@@ -11,7 +11,7 @@ from typing import Protocol
 
 from tehl.base.typing import Array, np
 from tehl.contact.bodies import Radii
-from tehl.contact.hertz import HertzContact, hertz_contact, load_of_pressure
+from tehl.contact.hertz import HertzContact, ellipticity, hertz_contact, load_of_pressure
 
 
 class Shape(Protocol):
@@ -31,6 +31,9 @@ class Shape(Protocol):
 
     def gap(self, x: Array, y: Array) -> Array:
         """Return the undeformed gap H [-] at X, Y that broadcast."""
+
+    def radius_squared(self, x: Array, y: Array) -> Array:
+        """Return a quadratic form of X, Y that broadcast, one on the rim of the contact [-]."""
 
     def dry_pressure(self, x: Array, y: Array) -> Array:
         """Return the dry pressure P [-] at X, Y that broadcast."""
@@ -57,16 +60,50 @@ class Shape(Protocol):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Ellipse:
-    """Circle or ellipse with axes along and across the entrainment."""
+    """Circle or ellipse, with axes along and across the entrainment or at an angle to it.
+
+    Half-widths are the largest x and y of its rim, X^2 - 2 s X Y + Y^2 = 1 - s^2.
+    """
 
     ellipticity: float
     """kappa = a_y/a_x."""
     radius_ratio: float
     """D = R_x/R_y."""
+    skew: float = 0.0
+    twist: float = 0.0
+    """s of the rim, and C of the gap X^2/2 + C X Y + D kappa^2 Y^2/2; zero on the axes."""
 
-    load = 2.0 * math.pi / 3.0
-    area = math.pi
     speed_power = 0.75
+
+    @classmethod
+    def of(cls, radii: Radii) -> "Ellipse":
+        """Return the shape of a contact with these reduced radii [m]."""
+        if radii.twist == 0.0:
+            return cls(
+                ellipticity=ellipticity(radii.x, radii.y), radius_ratio=radii.x / radii.y
+            )
+        dry = _turned_contact(1.0, radii, 1.0)
+        return cls(
+            ellipticity=dry.ellipticity,
+            radius_ratio=radii.x / radii.y,
+            skew=dry.skew,
+            twist=radii.twist * radii.x * dry.ellipticity,
+        )
+
+    @property
+    def narrowing(self) -> float:
+        """Return sqrt(1 - s^2): the half-width of the row Y = 0, one on the axes."""
+        return math.sqrt(1.0 - self.skew**2)
+
+    @property
+    def load(self) -> float:
+        """Return 2 pi/3, less the part by which a turned ellipse fills its half-widths less."""
+        return 2.0 * math.pi / 3.0 * self.narrowing
+
+    @property
+    def area(self) -> float:
+        """Return pi, less by the same part."""
+        return math.pi * self.narrowing
 
     @property
     def across(self) -> float:
@@ -74,24 +111,58 @@ class Ellipse:
         return self.radius_ratio * self.ellipticity**2
 
     def gap(self, x: Array, y: Array) -> Array:
-        """Return X^2/2 + D kappa^2 Y^2/2.
+        """Return X^2/2 + C X Y + D kappa^2 Y^2/2.
 
         Parameters
         ----------
         x, y : Array
             X and Y, which broadcast [-].
         """
-        return 0.5 * x**2 + 0.5 * self.across * y**2
+        gap = 0.5 * x**2 + 0.5 * self.across * y**2
+        return gap + self.twist * x * y if self.twist else gap
+
+    def radius_squared(self, x: Array, y: Array) -> Array:
+        """Return (X^2 - 2 s X Y + Y^2)/(1 - s^2): one on the rim of the contact.
+
+        Parameters
+        ----------
+        x, y : Array
+            X and Y, which broadcast [-].
+        """
+        if self.skew == 0.0:
+            return x**2 + y**2
+        return (x**2 - 2.0 * self.skew * x * y + y**2) / (1.0 - self.skew**2)
 
     def dry_pressure(self, x: Array, y: Array) -> Array:
-        """Return sqrt(1 - X^2 - Y^2), zero outside the contact.
+        """Return the square root of one less `radius_squared`, zero outside the contact.
 
         Parameters
         ----------
         x, y : Array
             X and Y, which broadcast [-].
         """
-        return np.sqrt(np.maximum(0.0, 1.0 - x**2 - y**2))
+        if self.skew == 0.0:
+            return np.sqrt(np.maximum(0.0, 1.0 - x**2 - y**2))
+        return np.sqrt(np.maximum(0.0, 1.0 - self.radius_squared(x, y)))
+
+    def _on_axes(self, x: Array, y: Array) -> tuple["Ellipse", Array, Array, float]:
+        """Return the same ellipse on its axes, X and Y there, and its unit of H over this one."""
+        kappa, d = self.ellipticity, self.radius_ratio
+        radii, angle = Radii(x=1.0, y=1.0 / d, twist=self.twist / kappa).principal()
+        rim = HertzContact(
+            half_width_x=1.0,
+            half_width_y=kappa,
+            pressure=1.0,
+            approach=0.0,
+            ellipticity=kappa,
+            skew=self.skew,
+        )
+        short, long, _ = rim.axes
+        y = kappa * y
+        cosine, sine = math.cos(angle), math.sin(angle)
+        along, across = x * cosine + y * sine, y * cosine - x * sine
+        turned = Ellipse(ellipticity=long / short, radius_ratio=radii.x / radii.y)
+        return turned, along / short, across / long, short**2 / radii.x
 
     def dry_gap(self, x: Array, y: Array) -> Array:
         r"""Return the gap of the dry Hertz contact, as H = h R_x / a_x^2 [-]; zero in the contact.
@@ -112,6 +183,9 @@ class Ellipse:
         ----------
         Johnson (1985), Contact Mechanics, section 3.5 (potential of an ellipsoidal pressure).
         """
+        if self.skew:
+            turned, x, y, unit = self._on_axes(x, y)
+            return unit * turned.dry_gap(x, y)
         k2 = self.ellipticity**2
         x2, y2 = np.broadcast_arrays(np.square(x), k2 * np.square(y))
         half = 0.5 * (x2 + y2 - 1.0 - k2)
@@ -136,6 +210,8 @@ class Ellipse:
         load, radii, modulus : float, Radii, float
             Load [N], reduced radii [m], and E' [Pa].
         """
+        if radii.twist:
+            return _turned_contact(load, radii, modulus)
         return hertz_contact(load, radii.x, radii.y, modulus)
 
     def load_of_pressure(self, pressure: float, radii: Radii, modulus: float) -> float:
@@ -146,6 +222,8 @@ class Ellipse:
         pressure, radii, modulus : float, Radii, float
             Largest dry pressure [Pa], reduced radii [m], and E' [Pa].
         """
+        if radii.twist:
+            radii, _ = radii.principal()
         return load_of_pressure(pressure, radii.x, radii.y, modulus)
 
     def load_unit(self, radius: float, modulus: float) -> float:
@@ -166,7 +244,14 @@ class Ellipse:
         load, factor : float
             W = w/(E' R_x^2), and 2 Pi/pi [-].
         """
-        return math.cbrt(3.0 * load / (math.pi**2 * self.ellipticity * factor)) ** 2
+        kappa = self.ellipticity * self.narrowing
+        return math.cbrt(3.0 * load / (math.pi**2 * kappa * factor)) ** 2
+
+
+def _turned_contact(load: float, radii: Radii, modulus: float) -> HertzContact:
+    """Return the dry contact whose axes are those of a gap with twist."""
+    on_axes, angle = radii.principal()
+    return hertz_contact(load, on_axes.x, on_axes.y, modulus).turned(angle)
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,6 +275,16 @@ class Line:
             X and Y, which broadcast [-].
         """
         return 0.5 * x**2 + 0.0 * y
+
+    def radius_squared(self, x: Array, y: Array) -> Array:
+        """Return X^2 + Y^2 as on an ellipse, with Y in metres.
+
+        Parameters
+        ----------
+        x, y : Array
+            X and Y, which broadcast [-].
+        """
+        return x**2 + y**2
 
     def dry_pressure(self, x: Array, y: Array) -> Array:
         """Return sqrt(1 - X^2), zero outside the contact.

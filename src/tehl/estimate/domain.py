@@ -71,11 +71,14 @@ WAVE_NODES, ROUGH_NODES = 20.0, 1024
 def gap_widths(groups: Groups) -> tuple[float, float]:
     """Return the distances along x and y where the undeformed gap is the central film [-].
 
-    In half-widths a_x and a_y: the pressure of a thick film extends over a few of them.
+    In half-widths a_x and a_y: the pressure of a thick film extends over a few of them. Those of an
+    ellipse at an angle are the largest X and Y of the rim of that gap.
     """
-    along = math.sqrt(2.0 * expected_central_film(groups))
-    across = groups.shape.across
-    return along, along / math.sqrt(across) if across else 0.0
+    along, across = math.sqrt(2.0 * expected_central_film(groups)), groups.shape.across
+    if not across:
+        return along, 0.0
+    wider = math.sqrt(across / (across - groups.twist**2))
+    return wider * along, wider * along / math.sqrt(across)
 
 
 def recommended_domain(groups: Groups, error: float = USUAL_PLAIN_ERROR) -> Domain:

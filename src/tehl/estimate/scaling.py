@@ -50,13 +50,21 @@ class Groups:
     """D = R_x / R_y."""
     deflection_factor: float
     """2 Pi / pi with Pi = p_h R_x / (E' a_x): the factor before the kernel sum (circle 2/pi^2)."""
+    skew: float = 0.0
+    twist: float = 0.0
+    """Of an ellipse at an angle to the entrainment, as of `tehl.contact.shape.Ellipse`."""
 
     @property
     def shape(self) -> Shape:
         """The shape of the contact."""
         if self.radius_ratio == 0.0:
             return LINE
-        return Ellipse(ellipticity=self.ellipticity, radius_ratio=self.radius_ratio)
+        return Ellipse(
+            ellipticity=self.ellipticity,
+            radius_ratio=self.radius_ratio,
+            skew=self.skew,
+            twist=self.twist,
+        )
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -108,10 +116,11 @@ def groups(problem: ContactProblem) -> Groups:
     """Return the dimensionless groups of ``problem``."""
     hertz, modulus, radius = problem.hertz, problem.reduced_modulus, problem.radius_x
     speed, material = problem.speed_group, problem.material_group
-    load = problem.load / problem.shape.load_unit(radius, modulus)
+    shape = problem.shape
+    load = problem.load / shape.load_unit(radius, modulus)
     viscous = 12.0 * problem.ambient_viscosity * problem.entrainment_speed
     return Groups(
-        M=load * (2.0 * speed) ** -problem.shape.speed_power,
+        M=load * (2.0 * speed) ** -shape.speed_power,
         L=material * (2.0 * speed) ** 0.25,
         U=speed,
         W=load,
@@ -121,6 +130,8 @@ def groups(problem: ContactProblem) -> Groups:
         ellipticity=hertz.ellipticity,
         radius_ratio=radius / problem.radius_y,
         deflection_factor=2.0 * hertz.pressure * radius / (math.pi * modulus * hertz.half_width_x),
+        skew=hertz.skew,
+        twist=shape.twist if isinstance(shape, Ellipse) else 0.0,
     )
 
 

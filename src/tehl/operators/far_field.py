@@ -1,10 +1,11 @@
 """Pressure far from the contact: its values on the edges of the grid, and the load outside.
 
-Far away the gap is that of rigid paraboloids, G = g(a) r^2 / 2 with g(a) = cos^2 a + D sin^2 a in
-polar coordinates around the contact, and the oil is ambient. There P = 8 lambda f(a) / r^3 solves
-the Reynolds equation with complementarity if
+Far away the gap is that of rigid paraboloids, G = g(a) r^2 / 2 with
+g(a) = cos^2 a + 2 t cos a sin a + D sin^2 a in polar coordinates around the contact (t = 0 unless
+the ellipse is at an angle to the entrainment), and the oil is ambient. There
+P = 8 lambda f(a) / r^3 solves the Reynolds equation with complementarity if
 
-    (g^3 f')' - 9 g^3 f = cos a,    f >= 0
+    (g^3 f')' - 9 g^3 f = cos a + t sin a,    f >= 0
 
 (docs/theory/numerics.md on the domain). For a circular contact f = A cosh 3 (pi - a) - cos(a) / 10
 up to tan a = 3, where the oil cavitates; the second term alone is the pressure of a rigid sphere
@@ -32,22 +33,78 @@ MOST_FRONTS = 200
 """Most steps of the search for the cavitation front, which moves by some nodes per step."""
 
 
+class Gap(NamedTuple):
+    """Gap of rigid paraboloids by direction."""
+
+    ratio: float
+    """D = R_x / R_y."""
+    twist: float = 0.0
+    """t, half of the mixed curvature over that along x."""
+
+    def angles(self, nodes: int) -> Array:
+        """Return ``nodes`` angles from downstream to upstream; with twist on to downstream again.
+
+        A turn begins where the gap opens most along the entrainment: the oil is cavitated there.
+        """
+        if self.twist == 0.0:
+            return np.linspace(0.0, np.pi, nodes)
+        return np.arctan(self.twist) + np.linspace(0.0, 2.0 * np.pi, 2 * nodes - 1)
+
+    def growth(self, angle: Array) -> Array:
+        """Return g at some angles."""
+        cosine, sine = np.cos(angle), np.sin(angle)
+        growth: Array = cosine**2 + self.ratio * sine**2
+        return growth + 2.0 * self.twist * cosine * sine if self.twist else growth
+
+    def place(self, x: Array, y: Array) -> Array:
+        """Return the angles of places within the range of `angles`.
+
+        Parameters
+        ----------
+        x, y : Array
+            X and kappa Y, which broadcast.
+        """
+        at = np.arctan2(y, x)
+        start = np.arctan(self.twist)
+        return start + np.mod(at - start, 2.0 * np.pi) if self.twist else np.abs(at)
+
+    def radii(self, angle: Array, x: tuple[float, float], y: tuple[float, float]) -> Array:
+        """Return the radii of rays at the edges of a rectangle, (sides, n).
+
+        Parameters
+        ----------
+        angle : (n,) array
+            Of `angles`: without twist there are rays on both sides of the line y = 0.
+        x, y : (float, float)
+            Edges, X and kappa Y.
+        """
+        cosine, sine = np.cos(angle), np.sin(angle)
+        along = np.where(cosine < 0.0, *x) / np.where(np.abs(cosine) < 1e-12, 1e-12, cosine)
+        if self.twist:
+            across = np.where(sine < 0.0, *y) / np.where(np.abs(sine) < 1e-12, 1e-12, sine)
+            return np.asarray(np.minimum(np.abs(along), np.abs(across))[None])
+        sides = np.array([[-y[0]], [y[1]]]) / np.maximum(sine, 1e-12)
+        return np.asarray(np.minimum(along, sides))
+
+
+def gap_of(groups: Groups) -> Gap:
+    """Return the rigid gap far from a contact."""
+    return Gap(groups.radius_ratio, groups.twist / groups.ellipticity)
+
+
 @lru_cache(maxsize=16)
-def angular_pressure(radius_ratio: float) -> tuple[Array, Array]:
-    """Return the angles, (n,), from downstream to upstream, and the pressure f at them.
+def angular_pressure(gap: Gap) -> tuple[Array, Array]:
+    """Return the angles of a gap, (n,), and the pressure f at them.
 
     The cavitation front follows from an active set: a node is wet as long as f > 0, a dry one
     becomes wet where its equation would raise f.
-
-    Parameters
-    ----------
-    radius_ratio : float
-        D = R_x / R_y.
     """
-    angle, to_last, to_next, conductance = _angular_operator(radius_ratio)
+    angle, to_last, to_next, conductance = _angular_operator(gap)
     diagonal = -(to_next + to_last) - 9.0 * conductance
     source = np.cos(angle)
-    wet = angle > 0.5 * np.pi
+    if gap.twist:
+        source = source + gap.twist * np.sin(angle)
+    wet = source < 0.0
     for _ in range(MOST_FRONTS):
         f = _solve(to_last, diagonal, to_next, source, wet)
         inflow = to_next * np.append(f[1:], 0.0) + to_last * np.append(0.0, f[:-1])
@@ -57,26 +114,26 @@ def angular_pressure(radius_ratio: float) -> tuple[Array, Array]:
     return angle, np.where(wet, np.maximum(f, 0.0), 0.0)
 
 
-def angular_squeeze(radius_ratio: float) -> Array:
+def angular_squeeze(gap: Gap) -> Array:
     """Return q at the angles of `angular_pressure`, zero where the oil is cavitated, (n,).
 
     Where the gap opens at a rate dH/dt the pressure changes by P = -lambda q(a) dH/dt / r^4, with
     (g^3 q')' - 8 g^3 q = -8.
     """
-    _, to_last, to_next, conductance = _angular_operator(radius_ratio)
+    angle, to_last, to_next, conductance = _angular_operator(gap)
     diagonal = -(to_next + to_last) - 8.0 * conductance
-    wet = angular_pressure(radius_ratio)[1] > 0.0
-    return _solve(to_last, diagonal, to_next, np.full(ANGLES, -8.0), wet)
+    wet = angular_pressure(gap)[1] > 0.0
+    return _solve(to_last, diagonal, to_next, np.full(angle.size, -8.0), wet)
 
 
-def _angular_operator(radius_ratio: float) -> tuple[Array, Array, Array, Array]:
+def _angular_operator(gap: Gap) -> tuple[Array, Array, Array, Array]:
     """Return the angles, both neighbours in (g^3 f')' and g^3, (n,) each."""
-    angle = np.linspace(0.0, np.pi, ANGLES)
-    step = angle[1]
-    conductance = (np.cos(angle) ** 2 + radius_ratio * np.sin(angle) ** 2) ** 3
+    angle = gap.angles(ANGLES)
+    step = angle[1] - angle[0]
+    conductance = gap.growth(angle) ** 3
     between = 0.5 * (conductance[1:] + conductance[:-1]) / step**2
     to_next, to_last = np.append(between, 0.0), np.append(0.0, between)
-    to_next[0] *= 2.0  # both ends are symmetric
+    to_next[0] *= 2.0  # both ends are symmetric, or cavitated
     to_last[-1] *= 2.0
     return angle, to_last, to_next, conductance
 
@@ -129,33 +186,29 @@ class FarField:
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
         self.groups = groups
-        ratio, stretch = groups.radius_ratio, groups.ellipticity
-        angle, f = angular_pressure(ratio)
+        gap, stretch = gap_of(groups), groups.ellipticity
+        angle, f = angular_pressure(gap)
         x, y = grid.x[None, :], stretch * grid.y[:, None]
         whole = slice(None)
         edges: list[Edge] = [(whole, 0), (whole, -1), (-1, whole)]
         if not grid.mirror:
             edges.append((0, whole))
-        radius, here = np.hypot(x, y), np.abs(np.arctan2(y, x))
+        radius, here = np.hypot(x, y), gap.place(x, y)
         # each edge with 2 lambda r g^2 f and lambda g^2 q / 4 at its nodes
         self.edges: list[tuple[Edge, Array]] = []
         self.squeezed: list[Array] = []
-        squeeze = groups.lambda_bar * angular_squeeze(ratio)
+        squeeze = groups.lambda_bar * angular_squeeze(gap)
         for edge in edges:
             at = here[edge]
-            shape = (np.cos(at) ** 2 + ratio * np.sin(at) ** 2) ** 2
+            shape = gap.growth(at) ** 2
             wedge = np.interp(at, angle, f) * shape
             self.edges.append((edge, 2.0 * groups.lambda_bar * radius[edge] * wedge))
             self.squeezed.append(0.25 * shape * np.interp(at, angle, squeeze))
         # the load outside, ray by ray
-        cosine, sine = np.cos(angle), np.maximum(np.sin(angle), 1e-12)
-        self.growth = cosine**2 + ratio * sine**2
-        ends = np.where(cosine < 0.0, grid.domain.x[0], grid.domain.x[1])
-        along = ends / np.where(np.abs(cosine) < 1e-12, 1e-12, cosine)
-        # one row for each side of the line y = 0
-        across = stretch * np.array([[-grid.domain.y[0]], [grid.domain.y[1]]]) / sine
-        self.radius = np.minimum(along, across)
-        width = np.full(ANGLES, angle[1])
+        self.growth = gap.growth(angle)
+        low, high = grid.domain.y
+        self.radius = gap.radii(angle, grid.domain.x, (stretch * low, stretch * high))
+        width = np.full(angle.size, angle[1] - angle[0])
         width[[0, -1]] *= 0.5
         self.weight = 8.0 * groups.lambda_bar / stretch * f * width
         self.squeeze_weight = 0.25 * squeeze * self.growth * width / stretch

@@ -5,6 +5,7 @@ integral grows with the logarithm of the domain and has no limit. That over an e
 Hertz contact has one (docs/theory/traction.md).
 """
 
+import math
 from functools import lru_cache
 
 import numpy as np
@@ -19,12 +20,18 @@ STRIPS = 4
 
 
 @lru_cache(maxsize=16)
-def zone_of(grid: Grid) -> Array:
-    """Return which part of the cell of each node lies in the loaded zone, ``grid.shape`` [-]."""
-    return zone_part(grid.x, grid.y)
+def zone_of(grid: Grid, skew: float = 0.0) -> Array:
+    """Return which part of the cell of each node lies in the loaded zone, ``grid.shape`` [-].
+
+    Parameters
+    ----------
+    grid, skew : Grid, float
+        As of `zone_part`.
+    """
+    return zone_part(grid.x, grid.y, skew=skew)
 
 
-def zone_part(x: Array, y: Array, radius: float = RADIUS) -> Array:
+def zone_part(x: Array, y: Array, radius: float = RADIUS, skew: float = 0.0) -> Array:
     """Return which part of the cell of each node lies in the loaded zone, (ny, nx), read-only [-].
 
     The cells at the ends are half cells. A sum over nodes with these weights is of second order in
@@ -36,18 +43,22 @@ def zone_part(x: Array, y: Array, radius: float = RADIUS) -> Array:
         Uniform nodes, in Hertz half-widths; of y the upper half is enough if it starts at 0.
     radius : float
         Half-axes of the zone over those of the Hertz contact.
+    skew : float
+        s of the rim of the contact, X^2 - 2 s X Y + Y^2 = 1 - s^2.
     """
     edges_x, edges_y = _edges(x), _edges(y)
     middles = (np.arange(STRIPS) + 0.5) / STRIPS
     across = edges_y[:-1, None] + np.diff(edges_y)[:, None] * middles
     chords = np.sqrt(np.maximum(radius**2 - across**2, 0.0))
-    part = sum(np.clip(edges_x, -chord[:, None], chord[:, None]) for chord in chords.T)
+    chords *= math.sqrt(1.0 - skew**2)
+    ends = zip((skew * across - chords).T, (skew * across + chords).T, strict=True)
+    part = sum(np.clip(edges_x, low[:, None], high[:, None]) for low, high in ends)
     part = np.diff(part, axis=1) / (STRIPS * np.diff(edges_x))
     part.flags.writeable = False
     return np.asarray(part)
 
 
-def contact_mean(x: Array, y: Array, field: Array) -> float:
+def contact_mean(x: Array, y: Array, field: Array, skew: float = 0.0) -> float:
     """Return the mean of a field over the Hertz contact, of second order in the mesh width.
 
     Parameters
@@ -56,21 +67,26 @@ def contact_mean(x: Array, y: Array, field: Array) -> float:
         As in `zone_part`.
     field : (ny, nx) array
         Values at the nodes.
+    skew : float
+        As of `zone_part`.
     """
     rows = np.diff(_edges(y)) if y.size > 1 else np.ones(1)
-    cells = np.outer(rows, np.diff(_edges(x))) * zone_part(x, y, radius=1.0)
+    cells = np.outer(rows, np.diff(_edges(x))) * zone_part(x, y, radius=1.0, skew=skew)
     return float((cells * field).sum() / cells.sum())
 
 
-def is_inside(x: Array, y: Array) -> BoolArray:
+def is_inside(x: Array, y: Array, skew: float = 0.0) -> BoolArray:
     """Return which nodes lie in the loaded zone, (ny, nx).
 
     Parameters
     ----------
     x, y : Array
         Nodes along each axis in Hertz half-widths, (nx,) and (ny,).
+    skew : float
+        As of `zone_part`.
     """
-    return np.add.outer(y**2, x**2) <= RADIUS**2
+    reach = np.add.outer(y**2, x**2) - 2.0 * skew * np.multiply.outer(y, x)
+    return np.asarray(reach <= RADIUS**2 * (1.0 - skew**2))
 
 
 def _edges(axis: Array) -> Array:

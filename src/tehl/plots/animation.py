@@ -239,7 +239,8 @@ def _film_image(axes: Axes, run: TransientSolution) -> AxesImage:
     """Draw the map of the first stored film, in colours that fit all of them."""
     scaled, (rows, columns) = run.start.scaled, window_part(run.start)
     films = run.frames.film[:, rows, columns]
-    inside = np.hypot(scaled.x[None, columns], scaled.y[rows, None]) < 0.8
+    at = run.start.groups.shape.radius_squared(scaled.x[columns], scaled.y[rows, None])
+    inside = at < 0.8**2
     low, high = float(films.min()) * MICRO, float(films[:, inside].max()) * MICRO
     edges = []
     for axis in window_places(run.start):

@@ -21,7 +21,8 @@ def mean_film(result: Solution) -> float | None:
     """Return the mean film over the Hertz contact [m]; None where there is no film."""
     if no_film(result):
         return None
-    return contact_mean(result.scaled.x, result.scaled.y, result.film_thickness)
+    x, y, skew = result.scaled.x, result.scaled.y, result.groups.skew
+    return contact_mean(x, y, result.film_thickness, skew)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -51,7 +51,7 @@ def temperature(result: Solution) -> Temperature | None:
     mean = mean_temperature(heat)
     # Of equal temperatures the one with the largest Y: a symmetric contact has Y >= 0.
     scaled = result.scaled
-    inside = is_inside(scaled.x, scaled.y)
+    inside = is_inside(scaled.x, scaled.y, result.groups.skew)
     field = np.where(inside, heat.temperature, -np.inf)[:, ::-1]
     layer, row, column = np.unravel_index(int(np.argmax(field)), field.shape)
     return Temperature(
@@ -92,7 +92,8 @@ def _pumped_in(result: Solution, heat: FilmHeat) -> float:
     that is hardly compressed.
     """
     x, y, film, pressure = result.x, result.y, result.film_thickness, result.pressure
-    outside = under_pressure(result) * (1.0 - zone_part(result.scaled.x, result.scaled.y))
+    inside = zone_part(result.scaled.x, result.scaled.y, skew=result.groups.skew)
+    outside = under_pressure(result) * (1.0 - inside)
     along = np.gradient(pressure, x, axis=1)
     across = np.gradient(pressure, y, axis=0) if y.size > 1 else 0.0 * along
     eta = result.problem.lubricant.viscosity.viscosity(pressure, mean_temperature(heat))

@@ -221,7 +221,8 @@ def in_contact(result: Solution, reach: float = 1.0) -> BoolArray:
     reach : float
         Size of the ellipse over that of Hertz [-].
     """
-    inside: BoolArray = result.scaled.x**2 + result.scaled.y[:, None] ** 2 < reach**2
+    at = result.groups.shape.radius_squared(result.scaled.x, result.scaled.y[:, None])
+    inside: BoolArray = at < reach**2
     return inside
 
 

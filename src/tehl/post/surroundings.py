@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tehl.base.typing import Array
-from tehl.estimate.scaling import Groups, ScaledProblem
+from tehl.estimate.scaling import ScaledProblem
 from tehl.result.fields import FilmShear
 from tehl.result.solution import Solution
 
@@ -44,12 +44,10 @@ class Surroundings:
 
 
 class _Rays(NamedTuple):
-    """Polar coordinates beyond the grid, (rings, rays), on one side of y = 0."""
+    """Polar coordinates beyond the grid, (rings, rays), around it or on one side of y = 0."""
 
     angle: Array
-    """(rays,): From downstream to upstream."""
-    growth: Array
-    """(rays,): g, the gap over r^2 / 2."""
+    """(rays,): From downstream to upstream, and on where they go round."""
     radius: Array
 
 
@@ -106,17 +104,22 @@ def _beyond(result: Solution, outer: float) -> tuple[float, float]:
     Returns the integrals of ``eta_bar / H``, the mid-film stress at SRR = -1, and of
     ``H dP/dX / 2``; ``outer`` is the largest X.
     """
-    from tehl.operators.far_field import angular_pressure  # noqa: PLC0415 (loading needs no scipy)
+    from tehl.operators.far_field import angular_pressure, gap_of  # noqa: PLC0415 (scipy)
 
     scaled = ScaledProblem.of(result.solved_problem)
     groups, base_groups = scaled.entering, result.groups
-    ratio, stretch = groups.radius_ratio, groups.ellipticity
+    gap, stretch = gap_of(groups), groups.ellipticity
     base, lift = _far_gap(result)
-    angles, pressures = angular_pressure(ratio)
+    angles, pressures = angular_pressure(gap)
     totals = np.zeros(2)
-    for width in (-result.scaled.y[0], result.scaled.y[-1]):
-        rays = _rays(groups, result.scaled.x[[0, -1]], stretch * width, outer)
-        angle, growth, radius = rays
+    angle = gap.angles(RAYS)
+    growth, (x, y) = gap.growth(angle), (result.scaled.x, stretch * result.scaled.y)
+    last = outer / np.sqrt(growth)
+    steps = np.linspace(0.0, 1.0, RINGS)[:, None]
+    for edge in gap.radii(angle, (x[0], x[-1]), (y[0], y[-1])):
+        first = np.minimum(edge, last)
+        radius = first * (last / first) ** steps
+        rays = _Rays(angle, radius)
         f = np.interp(angle, angles, pressures)
         film = base + lift / radius + 0.5 * growth * radius**2
         pressure = 2.0 * groups.lambda_bar * growth**2 * f * radius / film**2
@@ -131,18 +134,6 @@ def _beyond(result: Solution, outer: float) -> tuple[float, float]:
             totals[index] += np.trapezoid(along, angle)
     sliding, rolling = totals / stretch
     return float(sliding), float(rolling)
-
-
-def _rays(groups: Groups, ends: Array, width: float, outer: float) -> _Rays:
-    """Return rays from the edges of the grid, at ``ends`` of X and ``width``, to ``outer`` X."""
-    angle = np.linspace(0.0, np.pi, RAYS)
-    cosine, sine = np.cos(angle), np.maximum(np.sin(angle), 1e-12)
-    growth = cosine**2 + groups.radius_ratio * sine**2
-    along = np.where(cosine < 0.0, *ends) / np.where(np.abs(cosine) < 1e-12, 1e-12, cosine)
-    last = outer / np.sqrt(growth)
-    first = np.minimum(np.minimum(along, width / sine), last)
-    steps = np.linspace(0.0, 1.0, RINGS)[:, None]
-    return _Rays(angle, growth, first * (last / first) ** steps)
 
 
 def _slope_along_x(rays: _Rays, field: Array) -> Array:
@@ -165,7 +156,10 @@ def _far_gap(result: Solution) -> tuple[float, float]:
     edge[:, 0] = edge[0] = edge[-1] = True
     edge &= x < 0.0
     radius, raised = np.hypot(x, y)[edge], scaled.film[edge]
-    raised = raised - 0.5 * (x**2 + groups.radius_ratio * y**2)[edge]
+    rigid = 0.5 * (x**2 + groups.radius_ratio * y**2)
+    if groups.twist:
+        rigid += groups.twist / groups.ellipticity * x * y
+    raised = raised - rigid[edge]
     # least squares for two unknowns, by hand: lstsq would start all threads of the BLAS
     inverse, mean = 1.0 / radius, float(raised.mean())
     spread = inverse - inverse.mean()

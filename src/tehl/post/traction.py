@@ -86,7 +86,7 @@ def traction(result: Solution) -> Traction | None:
         return None
     motion, load = result.problem.motion, result.load
     wet = under_pressure(result)
-    area = wet * zone_part(result.scaled.x, result.scaled.y)
+    area = wet * zone_part(result.scaled.x, result.scaled.y, skew=result.groups.skew)
     inside = area > 0
     weights = area[inside]
     pressure, film = np.maximum(result.pressure, 0.0), result.film_thickness

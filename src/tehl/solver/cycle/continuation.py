@@ -108,7 +108,8 @@ class Roughness:
             level.correction = (part, self.settings.limit)
         # size of the waves in the contact, for the error estimate of a single grid
         finest = levels[-1].grid
-        inside = np.hypot.outer(finest.y, finest.x) < 1.0
+        shape = self.levels[-1].equations.groups.shape
+        inside = shape.radius_squared(finest.x, finest.y[:, None]) < 1.0
         self.points, self.amplitude = points[-1], 0.5 * float(np.ptp(heights.together[inside]))
 
     @property

@@ -45,7 +45,9 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     pressure = level.film.p
     found = {
         "pressure_max": float(pressure.max()),
-        "film_mean": contact_mean(level.grid.x, level.grid.y, level.film.h),
+        "film_mean": contact_mean(
+            level.grid.x, level.grid.y, level.film.h, scaled.groups.skew
+        ),
         **_spike(level),
     }
     found |= level.share.parts(level)
@@ -138,7 +140,7 @@ def mid_film_traction(
         Load over that of the contact [-].
     """
     stress, scales = mid_film_stress(level, scaled, state), scaled.scales
-    wet = stress * zone_of(level.grid) * wet_part(level.film.p)
+    wet = stress * zone_of(level.grid, scaled.groups.skew) * wet_part(level.film.p)
     area = scales.half_width_x * scales.half_width_y
     unit = stress_unit(scales) * area / (scales.load * load)
     return level.equations.load.integral(wet) * unit
@@ -147,7 +149,7 @@ def mid_film_traction(
 def _rises(state: FilmState) -> dict[str, float]:
     """Return the rises over the oil at the inlet, the largest ones of the loaded zone [K]."""
     temperature, inlet = state.temperature, state.film.scaled.scales.temperature
-    inside = is_inside(state.grid.x, state.grid.y).T
+    inside = is_inside(state.grid.x, state.grid.y, state.film.scaled.groups.skew).T
     first, second = (float(temperature[:, side][inside].max()) - inlet for side in (0, -1))
     weights = lagrange_weights(state.film.across.zeta, 0.5)
     middle = np.ascontiguousarray(np.einsum("k,xky->yx", weights, temperature))

@@ -122,8 +122,8 @@ def heat_balance(state: FilmState) -> HeatBalance:
     area[inner] = 2.0 if terms.mirror else 1.0
     if terms.mirror:
         area[1:-1, 0] = 1.0
-    area *= (wet_part(pressure.T) * zone_of(grid)).T  # of the film under pressure in the zone
-    scales = state.film.scaled.scales
+    scales, skew = state.film.scaled.scales, state.film.scaled.groups.skew
+    area *= (wet_part(pressure.T) * zone_of(grid, skew)).T  # of the film under pressure in the zone
     area *= grid.dx * grid.dy * scales.half_width_x * scales.half_width_y * state.film.flux_unit
     powers = (view("shear"), view("work"), *state.fluxes, carried)
     shear, compression, first, second, out = (float((area * power).sum()) for power in powers)
