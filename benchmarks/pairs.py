@@ -29,7 +29,9 @@ FEATURES: dict[str, Tables] = {
         }
     },
     "boundary": {"contact_film": {"thickness": "60 nm"}},
-    "ellipse": {"contact": {"radius_x": "20 mm", "radius_y": "40 mm"}},
+    "ellipse": {
+        "contact": {"radius_x": "20 mm", "radius_y": "40 mm", "entrainment_angle": "30 deg"}
+    },
     "load": {"transient": {"duration": "3 ms", "load": [["0 ms", 1.0], ["3 ms", 1.2]]}},
 }
 """Tables of each physics, laid over `BASE`."""

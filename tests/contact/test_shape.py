@@ -10,6 +10,8 @@ from tehl.contact.hertz import elliptic_b_d
 from tehl.contact.shape import LINE, Ellipse
 
 CIRCLE = Ellipse(ellipticity=1.0, radius_ratio=1.0)
+AXES = Radii(x=0.01, y=0.03)
+TURNED = Ellipse.of(AXES.turned(math.radians(30)))
 
 
 def gap_of_circle(r: np.ndarray) -> np.ndarray:
@@ -44,13 +46,56 @@ def test_far_away_the_dry_gap_is_the_undeformed_one(kappa):
     assert curvature == pytest.approx(shape.across, rel=1e-4)
 
 
-@pytest.mark.parametrize("shape", [CIRCLE, LINE])
+@pytest.mark.parametrize("shape", [CIRCLE, LINE, TURNED])
 def test_the_dry_pressure_carries_the_load(shape):
     x = np.linspace(-1, 1, 4001)
     y = np.zeros(1) if shape is LINE else x[::5]
     cell = (x[1] - x[0]) * (1.0 if shape is LINE else y[1] - y[0])
     carried = shape.dry_pressure(x[None, :], y[:, None]).sum() * cell
-    assert carried == pytest.approx(shape.load, rel=1e-4)
+    assert carried == pytest.approx(shape.load, rel=2e-4)
+
+
+def on_axes(x: np.ndarray, y: np.ndarray, angle: float) -> tuple[np.ndarray, np.ndarray]:
+    """Places [m] along the axes of an ellipse whose axis of radius_x lies at -angle from x."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return x * cosine - y * sine, x * sine + y * cosine
+
+
+@pytest.mark.parametrize("degrees", [30.0, -75.0, 120.0])
+def test_a_turned_ellipse_is_the_one_on_its_axes(degrees):
+    angle, load, modulus = math.radians(degrees), 50.0, 2.2e11
+    own, radii = Ellipse.of(AXES), AXES.turned(angle)
+    dry, found, shape = (
+        own.hertz(load, AXES, modulus),
+        own.hertz(load, radii, modulus),
+        Ellipse.of(radii),
+    )
+    x, y = np.random.default_rng(1).uniform(-2.0, 2.0, (2, 50))
+    along, across = on_axes(x * found.half_width_x, y * found.half_width_y, angle)
+    first, second = along / dry.half_width_x, across / dry.half_width_y
+    unit = dry.half_width_x**2 / AXES.x / (found.half_width_x**2 / radii.x)
+    assert shape.gap(x, y) == pytest.approx(own.gap(first, second) * unit, rel=1e-10)
+    assert shape.dry_pressure(x, y) == pytest.approx(own.dry_pressure(first, second), abs=1e-8)
+    gap = own.dry_gap(first, second)
+    assert shape.dry_gap(x, y) == pytest.approx(gap * unit, abs=1e-10)
+    assert found.pressure == pytest.approx(dry.pressure)
+    assert sorted(found.axes[:2]) == pytest.approx([dry.half_width_x, dry.half_width_y])
+    assert math.sin(found.axes[2] + angle) == pytest.approx(0.0, abs=1e-12)
+    # its rim touches the edges of its half-widths
+    rim = np.linspace(0.0, 7.0, 10000)
+    place = on_axes(dry.half_width_x * np.cos(rim), dry.half_width_y * np.sin(rim), -angle)
+    assert max(place[0]) == pytest.approx(found.half_width_x, rel=1e-6)
+    assert max(place[1]) == pytest.approx(found.half_width_y, rel=1e-6)
+    assert shape.load_of_pressure(found.pressure, radii, modulus) == pytest.approx(load)
+
+
+def test_turns_by_quarters_and_of_circles_are_exact():
+    assert AXES.turned(math.radians(180)) == AXES
+    assert AXES.turned(math.radians(-90)) == AXES.turned(math.pi / 2) == Radii(x=0.03, y=0.01)
+    circle = Radii(x=0.01, y=0.01)
+    assert circle.turned(0.7) == circle
+    one, other = AXES.turned(0.4), AXES.turned(-0.4)
+    assert (one.x, one.y, one.twist) == (other.x, other.y, -other.twist)
 
 
 def test_the_dry_gap_of_a_line_opens_as_the_surfaces_curve_less_what_they_bend():

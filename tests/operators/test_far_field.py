@@ -9,7 +9,7 @@ from scipy.integrate import quad
 from tehl.contact.options import Domain
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import groups
-from tehl.operators.far_field import FarField, angular_pressure, angular_squeeze
+from tehl.operators.far_field import FarField, Gap, angular_pressure, angular_squeeze
 from tehl.operators.film import gap
 from tests.reference import moes_contact
 
@@ -18,7 +18,7 @@ DOMAIN = Domain(x=(-20.0, 10.0), y=(-15.0, 15.0))
 
 
 def test_the_pressure_of_a_circular_contact_is_the_closed_form():
-    angle, f = angular_pressure(1.0)
+    angle, f = angular_pressure(Gap(1.0))
     front = math.atan(3.0)
     # f and f' vanish at the front
     factor = 0.1 * math.cos(front) / math.cosh(3.0 * (math.pi - front))
@@ -26,26 +26,42 @@ def test_the_pressure_of_a_circular_contact_is_the_closed_form():
     assert f == pytest.approx(np.where(angle > front, expected, 0.0), abs=1e-4 * f.max())
 
 
-@pytest.mark.parametrize("ratio", [0.2, 0.5, 2.0, 5.0])
-def test_the_pressure_solves_its_equation_where_it_is_positive(ratio):
-    angle, f = angular_pressure(ratio)
-    g = (np.cos(angle) ** 2 + ratio * np.sin(angle) ** 2) ** 3
+@pytest.mark.parametrize(
+    "gap", [Gap(0.2), Gap(0.5), Gap(2.0), Gap(5.0), Gap(0.5, 0.4), Gap(1.0, -0.9), Gap(6.0, 2.0)]
+)
+def test_the_pressure_solves_its_equation_where_it_is_positive(gap):
+    angle, f = angular_pressure(gap)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    g = (cosine**2 + 2.0 * gap.twist * cosine * sine + gap.ratio * sine**2) ** 3
     flux = 0.5 * (g[1:] + g[:-1]) * np.diff(f) / np.diff(angle)
     left = np.diff(flux) / np.diff(angle)[0] - 9.0 * g[1:-1] * f[1:-1]
-    wet = f[1:-1] > 0.0
-    assert left[wet] == pytest.approx(np.cos(angle[1:-1][wet]), abs=1e-6)
-    assert np.all(np.cos(angle[1:-1][~wet]) >= -1e-12)  # dry where the gap opens
+    wet, opening = f[1:-1] > 0.0, (cosine + gap.twist * sine)[1:-1]
+    assert left[wet] == pytest.approx(opening[wet], abs=2e-6 * max(g.max(), 1.0))
+    assert np.all(opening[~wet] >= -1e-12)  # dry where the gap opens
     assert np.all(np.diff(f[f > 0.0])[:3] > 0.0)
+
+
+def test_the_rays_of_a_turned_gap_go_round_it_as_those_of_its_mirror_image_do():
+    angle, f = angular_pressure(Gap(0.5, 0.4))
+    mirrored, other = angular_pressure(Gap(0.5, -0.4))
+    assert other[::-1] == pytest.approx(f, abs=1e-9)
+    assert mirrored[::-1] == pytest.approx(2.0 * np.pi - angle)
+    assert f[0] == f[-1] == 0.0
+    radii = Gap(0.5, 0.4).radii(angle, (-3.0, 2.0), (-1.0, 4.0))[0]
+    x, y = radii * np.cos(angle), radii * np.sin(angle)
+    assert np.minimum(np.minimum(x + 3.0, 2.0 - x), np.minimum(y + 1.0, 4.0 - y)) == pytest.approx(
+        0.0, abs=1e-9
+    )
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
 def test_far_from_the_cavity_the_squeeze_is_that_of_paraboloids(ratio):
     # without cavitation -lambda / (2 (1 + D) H^2) solves (H^3 P')' = lambda dH/dt: q = 2 / (1 + D)
     # upstream on the axis, where H = r^2 / 2
-    squeeze = angular_squeeze(ratio)
+    squeeze = angular_squeeze(Gap(ratio))
     assert squeeze[-1] == pytest.approx(2.0 / (1.0 + ratio), rel=0.02)
     assert squeeze.min() > -1e-9
-    assert np.abs(squeeze[angular_pressure(ratio)[1] == 0.0]).max() < 1e-9
+    assert np.abs(squeeze[angular_pressure(Gap(ratio))[1] == 0.0]).max() < 1e-9
 
 
 def test_the_slopes_are_those_of_edges_and_load():
@@ -69,7 +85,7 @@ def test_the_edges_have_the_pressure_of_the_rigid_gap():
     grid = Grid(nx=65, ny=65, domain=DOMAIN, mirror=False)
     far, pressure = FarField(grid, GROUPS), np.zeros(grid.shape)
     far.set_edges(pressure, gap(grid, GROUPS))
-    _, f = angular_pressure(1.0)
+    _, f = angular_pressure(Gap(1.0))
     # upstream on the axis
     assert pressure[32, 0] == pytest.approx(8.0 * GROUPS.lambda_bar * f[-1] / 20.0**3, rel=1e-6)
     assert pressure[32, -1] == 0.0
@@ -79,7 +95,7 @@ def test_the_edges_have_the_pressure_of_the_rigid_gap():
 
 def test_the_load_outside_is_the_integral_of_the_pressure():
     grid = Grid(nx=65, ny=65, domain=DOMAIN, mirror=False)
-    far, base, (angle, f) = FarField(grid, GROUPS), 3.0, angular_pressure(1.0)
+    far, base, (angle, f) = FarField(grid, GROUPS), 3.0, angular_pressure(Gap(1.0))
     field = gap(grid, GROUPS)
 
     def ray(a: float) -> float:

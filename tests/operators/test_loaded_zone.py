@@ -8,16 +8,17 @@ from tehl.estimate.grid import Grid
 from tehl.operators.loaded_zone import RADIUS, is_inside, wet_part, zone_of, zone_part
 
 
-def disc(points: int, edge: float = 3.1) -> float:
+def disc(points: int, edge: float = 3.1, skew: float = 0.0) -> float:
     """Return the integral of 1 + x over the zone by the sum on a grid that is not aligned to it."""
     x, y = np.linspace(-edge, 2.7, points), np.linspace(-2.9, edge, points)
     area = (x[1] - x[0]) * (y[1] - y[0])
-    return float(area * (zone_part(x, y) * (1.0 + 0.3 * x)).sum())
+    return float(area * (zone_part(x, y, skew=skew) * (1.0 + 0.3 * x)).sum())
 
 
-def test_the_sum_over_the_zone_is_of_second_order():
-    exact = np.pi * RADIUS**2
-    coarse, fine = abs(disc(41) - exact), abs(disc(161) - exact)
+@pytest.mark.parametrize("skew", [0.0, -0.8])
+def test_the_sum_over_the_zone_is_of_second_order(skew):
+    exact = np.pi * RADIUS**2 * np.sqrt(1.0 - skew**2)
+    coarse, fine = (abs(disc(points, skew=skew) - exact) for points in (41, 161))
     assert coarse < 2e-3 * exact
     assert fine < coarse / 4.0
 
@@ -36,6 +37,9 @@ def test_nodes_within_the_zone_count_fully_and_those_outside_not():
     assert np.abs(part[radius < RADIUS - 0.15] - 1.0).max() < 1e-12
     assert (part[radius > RADIUS + 0.15] == 0.0).all()
     assert is_inside(axis, axis).sum() == (radius <= RADIUS).sum()
+    partly = zone_part(axis, axis, skew=0.6)
+    assert (partly[is_inside(axis, axis, 0.6)] > 0.3).all()
+    assert (partly[~is_inside(axis, axis, 0.6)] < 0.7).all()
 
 
 @pytest.mark.parametrize("front", [0.5, 0.63, 0.99, 1.2, 1.49])

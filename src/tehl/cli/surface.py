@@ -134,6 +134,7 @@ def _mesh_of_case(case: Path, points: int | None) -> "Mesh":
         ),
         half_widths=(hertz.half_width_x, hertz.half_width_y),
         points=(nx, ny),
+        skew=hertz.skew,
     )
 
 

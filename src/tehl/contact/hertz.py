@@ -58,19 +58,28 @@ class HertzContact:
 
         The angle is that from x, counter-clockwise.
         """
-        if self.skew == 0.0:
-            return self.half_width_x, self.half_width_y, 0.0
-        along, across = self.half_width_x**2, self.half_width_y**2
-        mixed = self.skew * self.half_width_x * self.half_width_y
-        long = 0.5 * (along + across) + math.hypot(0.5 * (along - across), mixed)
-        area = self.half_width_x * self.half_width_y * math.sqrt(1.0 - self.skew**2)
-        angle = 0.5 * math.atan2(-2.0 * mixed, across - along)
-        return area / math.sqrt(long), math.sqrt(long), angle
+        return axes_of(self.half_width_x, self.half_width_y, self.skew)
 
     @property
     def mean_pressure(self) -> float:
         """Return two thirds of the largest pressure, pi/4 of that of a line [Pa]."""
         return self.pressure * (math.pi / 4.0 if math.isinf(self.ellipticity) else 2.0 / 3.0)
+
+
+def axes_of(half_width_x: float, half_width_y: float, skew: float) -> tuple[float, float, float]:
+    """Return the half-axes of an ellipse and the angle of the first, as `HertzContact.axes`.
+
+    Parameters
+    ----------
+    half_width_x, half_width_y, skew : float
+        Its largest x and y, and s of its rim.
+    """
+    if skew == 0.0:
+        return half_width_x, half_width_y, 0.0
+    along, across, mixed = half_width_x**2, half_width_y**2, skew * half_width_x * half_width_y
+    long = math.sqrt(0.5 * (along + across) + math.hypot(0.5 * (along - across), mixed))
+    area = half_width_x * half_width_y * math.sqrt(1.0 - skew**2)
+    return area / long, long, 0.5 * math.atan2(-2.0 * mixed, across - along)
 
 
 def elliptic_b_d(parameter: float) -> tuple[float, float]:

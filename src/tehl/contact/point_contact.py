@@ -278,17 +278,22 @@ class PointContact(Table):
 
     @property
     def radii(self) -> Radii:
-        """Return the reduced radii along and across the entrainment; of a line that is infinite."""
+        """Return the reduced radii, and the twist, along and across the entrainment."""
+        return self.radii_of_axes.turned(self.contact.entrainment_angle)
+
+    @property
+    def radii_of_axes(self) -> Radii:
+        """Return the reduced radii along the axes of the ellipse; one of a line is infinite."""
         first, second = self.surface_1.radii, self.surface_2.radii
         if self.contact.is_line and self.contact.radii is not None:
             return Radii(x=self.contact.radii.x, y=math.inf)
         if self.contact.radii is not None:
-            return self.contact.radii.turned(self.contact.entrainment_angle)
+            return self.contact.radii
         if first is None or second is None:
             raise ValueError("no radii")
         if self.contact.is_line:
             return Radii(x=reduced_radius(first.x, second.x), y=math.inf)
-        return reduced_radii(first, second).turned(self.contact.entrainment_angle)
+        return reduced_radii(first, second)
 
     @property
     def radius_x(self) -> float:

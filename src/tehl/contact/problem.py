@@ -81,7 +81,7 @@ def check(problem: PointContact) -> None:
             "contact.moes_speed does not determine a speed: lubricant.viscosity has no pressure "
             "coefficient; give contact.entrainment_speed"
         )
-    ratio = problem.radius_y / problem.radius_x
+    ratio = problem.radii_of_axes.y / problem.radii_of_axes.x
     if not problem.contact.is_line and not 1.0 / LARGEST_RATIO <= ratio <= LARGEST_RATIO:
         raise ValueError(
             f"radius_y / radius_x = {ratio:.3g} is a line contact, not a point contact: it must "

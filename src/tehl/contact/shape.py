@@ -11,7 +11,7 @@ from typing import Protocol
 
 from tehl.base.typing import Array, np
 from tehl.contact.bodies import Radii
-from tehl.contact.hertz import HertzContact, ellipticity, hertz_contact, load_of_pressure
+from tehl.contact.hertz import HertzContact, axes_of, ellipticity, hertz_contact, load_of_pressure
 
 
 class Shape(Protocol):
@@ -79,9 +79,7 @@ class Ellipse:
     def of(cls, radii: Radii) -> "Ellipse":
         """Return the shape of a contact with these reduced radii [m]."""
         if radii.twist == 0.0:
-            return cls(
-                ellipticity=ellipticity(radii.x, radii.y), radius_ratio=radii.x / radii.y
-            )
+            return cls(ellipticity=ellipticity(radii.x, radii.y), radius_ratio=radii.x / radii.y)
         dry = _turned_contact(1.0, radii, 1.0)
         return cls(
             ellipticity=dry.ellipticity,
@@ -149,15 +147,7 @@ class Ellipse:
         """Return the same ellipse on its axes, X and Y there, and its unit of H over this one."""
         kappa, d = self.ellipticity, self.radius_ratio
         radii, angle = Radii(x=1.0, y=1.0 / d, twist=self.twist / kappa).principal()
-        rim = HertzContact(
-            half_width_x=1.0,
-            half_width_y=kappa,
-            pressure=1.0,
-            approach=0.0,
-            ellipticity=kappa,
-            skew=self.skew,
-        )
-        short, long, _ = rim.axes
+        short, long, _ = axes_of(1.0, kappa, self.skew)
         y = kappa * y
         cosine, sine = math.cos(angle), math.sin(angle)
         along, across = x * cosine + y * sine, y * cosine - x * sine

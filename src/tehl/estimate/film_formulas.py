@@ -84,7 +84,7 @@ def hamrock_dowson(groups: Groups) -> FilmRatio:
 
 
 def chittenden(groups: Groups) -> FilmRatio:
-    """Return the film of Chittenden and others [2]_ for entrainment along a principal axis."""
+    """Return the film of Chittenden and others [2]_, at an angle with the radii along x and y."""
     common = groups.U**0.68 * groups.G**0.49 * groups.W**-0.073
     side = groups.radius_ratio ** (-2.0 / 3.0)
     return FilmRatio(
@@ -210,6 +210,7 @@ FORMULAS = (
         source="Proc. R. Soc. A 397 (1985) 245-294",
         film=chittenden,
         limits=("radius_ratio", 0.1, 10.0),
+        at_angles=True,
         minimum_limit=100.0,
     ),
 )
@@ -249,6 +250,8 @@ def _remarks(formula: Formula, groups: Groups) -> tuple[str, ...]:
     value = getattr(groups, name)
     if not low * (1 - 1e-9) <= value <= high * (1 + 1e-9):
         remarks.append(f"{name} = {value:.4g} is outside {low:g} to {high:g}")
+    if groups.twist and not formula.at_angles:
+        remarks.append("valid for entrainment along an axis of the ellipse")
     if here not in formula.regimes:
         remarks.append(f"valid for {' and '.join(formula.regimes)}, this contact is {here}")
     return tuple(remarks)

@@ -35,6 +35,8 @@ class Formula:
     """Regimes for which it was derived."""
     minimum_limit: float = math.inf
     """Moes load above which its minimum film is known to be too thick, except in wide contacts."""
+    at_angles: bool = False
+    """Whether it holds for entrainment at an angle to the axes of the ellipse."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

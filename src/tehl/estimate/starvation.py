@@ -159,7 +159,7 @@ def starved_degree(groups: Groups, ratio: float) -> tuple[float, float | None]:
     law, axes, factors, errors = starved_part(ratio), *table()
     place = np.log(groups.M), groups.L, np.log(max(ratio, 1e-9))
     inside = all(axis[0] <= at <= axis[-1] for axis, at in zip(axes, place, strict=True))
-    if not inside or abs(groups.radius_ratio - 1.0) > CIRCULAR:
+    if not inside or groups.twist or abs(groups.radius_ratio - 1.0) > CIRCULAR:
         return law, None
     from scipy.interpolate import interpn  # noqa: PLC0415 (0.1 s, for starved contacts only)
 

@@ -22,6 +22,8 @@ class Ratios:
     x: float
     y: float
     """Of Hertz half-widths."""
+    skew: float
+    """s of the rim of the wanted contact."""
     roughness: float
     """Of the roughness of both surfaces; one where none is stated."""
 
@@ -51,6 +53,7 @@ def _ratios(solved: ContactProblem, wanted: ContactProblem) -> Ratios:
         pressure=after.pressure / before.pressure,
         x=after.half_width_x / before.half_width_x,
         y=after.half_width_y / before.half_width_y,
+        skew=after.skew,
         roughness=rough[1] / rough[0] if min(rough) > 0 else 1.0,
     )
 
@@ -73,6 +76,7 @@ def _maps(maps: Maps, ratios: Ratios) -> Maps:
         pressure=maps.pressure * ratios.pressure,
         central=maps.central * ratios.film,
         minimum=tuple((x * ratios.x, y * ratios.y) for x, y in maps.minimum),
+        skew=ratios.skew,
     )
 
 

@@ -97,7 +97,7 @@ def speed(state: State) -> Choice:
 
 def shape(state: State) -> Choice:
     """Return the choice of how the shape is stated."""
-    radii, contact = state.problem.radii, state.problem.contact
+    radii, contact = state.problem.radii_of_axes, state.problem.contact
     x, y = f"{1e3 * radii.x:.6g} mm", f"{1e3 * radii.y:.6g} mm"
     bodies = {"surface_1.radius_x": x, "surface_1.radius_y": y}
     if math.isclose(radii.x, radii.y, rel_tol=1e-6):

@@ -2,6 +2,7 @@
 
 import base64
 import io
+import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import count
@@ -13,6 +14,7 @@ from matplotlib import colormaps
 from PIL import Image
 
 from tehl.base.typing import Array
+from tehl.contact.hertz import axes_of
 from tehl.explore.axes import Frame, Picture, Scale, number_text, svg, text, ticks, turned
 from tehl.explore.shown import Deep, Maps, Section, Shown, Span
 
@@ -296,8 +298,10 @@ def _contact(frame: Frame, maps: Maps) -> str:
     """Return the Hertz contact, the minimum film, and the arrow of entrainment."""
     rx = frame.x(maps.half_widths[0]) - frame.x(0.0)
     ry = frame.y(0.0) - frame.y(maps.half_widths[1])
-    cx, cy = frame.x(0.0), frame.y(0.0)
-    ring = f'<ellipse cx="{cx:.1f}" cy="{cy:.1f}" rx="{rx:.1f}" ry="{ry:.1f}"'
+    first, second, angle = axes_of(rx, ry, maps.skew)
+    turn = "" if maps.skew == 0.0 else f" rotate({-math.degrees(angle):.2f})"
+    place = f'transform="translate({frame.x(0.0):.1f} {frame.y(0.0):.1f}){turn}"'
+    ring = f'<ellipse {place} rx="{first:.1f}" ry="{second:.1f}"'
     parts = [f'{ring} class="rim"/>{ring} class="hertz"/>']
     for x, y in maps.minimum:
         parts.append(_cross(frame.x(x), frame.y(y)))

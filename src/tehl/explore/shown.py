@@ -47,6 +47,8 @@ class Maps:
     """Central film [nm]."""
     minimum: tuple[tuple[float, float], ...] = ()
     """Places of the minimum film [um]."""
+    skew: float = 0.0
+    """s of the rim of the Hertz contact, X^2 - 2 s X Y + Y^2 = 1 - s^2 in half-widths."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -168,6 +170,7 @@ def maps_of(result: Result) -> Maps:
         pressure=_single(result.pressure[rows, columns] * 1e-9),
         central=result.film.central * 1e9,
         minimum=_minimum(result, half),
+        skew=result.groups.skew,
     )
 
 

@@ -16,6 +16,7 @@ from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
 from tehl.base.typing import Array
+from tehl.contact.hertz import axes_of
 from tehl.post.film import no_film
 from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
@@ -282,8 +283,19 @@ def dress_contact(axes: Axes, result: Solution) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(3 if slender > 2 else 8, steps=STEPS))
     axes.yaxis.set_major_locator(MaxNLocator(3 if slender < 0.5 else 8, steps=STEPS))
     style: dict[str, Any] = {"color": "white", "ls": "--", "lw": 1.1, "zorder": 5}
-    rim = Ellipse((0, 0), 2 * widths[0], 2 * widths[1], fill=False, **style)
+    first, second, angle = axes_of(*widths, result.groups.skew)
+    rim = Ellipse((0, 0), 2 * first, 2 * second, angle=np.degrees(angle), fill=False, **style)
     axes.add_patch(rim).set_path_effects(outline("0.25", 1.9))
+    if result.groups.twist:
+        _entrainment(axes)
+
+
+def _entrainment(axes: Axes) -> None:
+    """Draw the direction of the entrainment in the lower left corner of a map."""
+    style: dict[str, Any] = {"arrowstyle": "-|>", "color": "white", "lw": 1.6}
+    ends: dict[str, Any] = {"xy": (0.17, 0.06), "xytext": (0.03, 0.06)}
+    coordinates: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "axes fraction"}
+    axes.annotate("", **ends, **coordinates, arrowprops=style, zorder=6)
 
 
 def mark_levels(bar: Colorbar, lines: QuadContourSet) -> None:

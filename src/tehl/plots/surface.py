@@ -9,8 +9,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse, Polygon
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
+from tehl.contact.hertz import axes_of
 from tehl.plots.frame import BLUE, MICRO, ORANGE, PLAIN, STEPS, Picture, outline
-from tehl.roughness.preview import Preview, View, view
+from tehl.roughness.preview import Mesh, Preview, View, view
 
 _CLIPPED, _COUNTED_HEIGHTS = 0.1, 10**6
 """Percentile of the heights that colours leave out, and the number of heights it is found from."""
@@ -84,7 +85,7 @@ def _draw_map(axes: Axes, preview: Preview, seen: View) -> None:
     axes.figure.colorbar(image, ax=axes, location=where, label=label, **bar)
     labels = []
     if preview.mesh is not None:
-        labels.append(_draw_contact(axes, preview.mesh.half_widths))
+        labels.append(_draw_contact(axes, preview.mesh))
     if seen.corners is not None:
         corners = {tuple(corner) for corner in np.round(seen.corners * 1e9)}
         window = {tuple(np.round(np.array(place) * 1e9)) for place in product(*seen.window)}
@@ -95,11 +96,13 @@ def _draw_map(axes: Axes, preview: Preview, seen: View) -> None:
     axes.set_title(", ".join(labels), fontsize=8)
 
 
-def _draw_contact(axes: Axes, half_widths: tuple[float, float]) -> str:
+def _draw_contact(axes: Axes, mesh: Mesh) -> str:
     """Draw the contact within the present limits; return its caption."""
     limits = axes.get_xlim(), axes.get_ylim()
-    half_x, half_y = (MICRO * half for half in half_widths)
-    rim = Ellipse((0, 0), 2 * half_x, 2 * half_y, fill=False, color="white", ls="--", lw=1.3)
+    half_x, half_y = (MICRO * half for half in mesh.half_widths)
+    first, second, angle = axes_of(half_x, half_y, mesh.skew)
+    style: dict[str, Any] = {"fill": False, "color": "white", "ls": "--", "lw": 1.3}
+    rim = Ellipse((0, 0), 2 * first, 2 * second, angle=np.degrees(angle), **style)
     axes.add_patch(rim).set_path_effects(outline("0.2", 2.4))
     axes.set(xlim=limits[0], ylim=limits[1])
     reaches = zip(limits, (half_x, half_y), strict=True)

@@ -132,6 +132,11 @@ def layer_decay(result: Solution) -> LayerDecay:
         raise InputError(
             'supply.track is missing: give the length of both running tracks, such as "250 mm"'
         )
+    if result.groups.twist:
+        raise InputError(
+            "contact.entrainment_angle: oil flows across the middle of a track that is not "
+            "symmetric, so one line does not tell how the layer thins; take supply.passes"
+        )
     scales, pressure = result.scales, result.scaled.at_origin(result.pressure)
     density = float(problem.lubricant.density.density(pressure, scales.temperature))
     return LayerDecay(

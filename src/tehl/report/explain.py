@@ -225,6 +225,8 @@ def as_text(case: Explanation) -> str:
     return render(
         "explain.txt",
         case=case,
+        angle=math.degrees(problem.contact.entrainment_angle),
+        axes=problem.radii_of_axes,
         available=available_memory(),
         converges=CONVERGES,
         inlet_factors=inlet_factors(problem),

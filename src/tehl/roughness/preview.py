@@ -26,6 +26,8 @@ class Mesh:
     spacing: tuple[float, float]
     half_widths: tuple[float, float]
     points: tuple[int, int]
+    skew: float = 0.0
+    """s of the rim of the contact, X^2 - 2 s X Y + Y^2 = 1 - s^2 in half-widths."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

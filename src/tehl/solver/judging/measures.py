@@ -45,9 +45,7 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     pressure = level.film.p
     found = {
         "pressure_max": float(pressure.max()),
-        "film_mean": contact_mean(
-            level.grid.x, level.grid.y, level.film.h, scaled.groups.skew
-        ),
+        "film_mean": contact_mean(level.grid.x, level.grid.y, level.film.h, scaled.groups.skew),
         **_spike(level),
     }
     found |= level.share.parts(level)
