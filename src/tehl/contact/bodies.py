@@ -28,12 +28,11 @@ class Radii:
         angle : float
             From the x axis of this gap, which has no twist, counter-clockwise [rad].
         """
-        angle = math.remainder(math.degrees(angle), 180.0)  # of which quarters are exact
-        if angle == 0.0 or self.x == self.y:
+        cosine, sine = direction(angle)
+        if sine == 0.0 or self.x == self.y:
             return self
-        if abs(angle) == 90.0:
+        if cosine == 0.0:
             return Radii(x=self.y, y=self.x)
-        cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
         first, second = 1.0 / self.x, 1.0 / self.y
         return Radii(
             x=1.0 / (first * cosine**2 + second * sine**2),

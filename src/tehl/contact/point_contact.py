@@ -213,11 +213,6 @@ class Contact(_WithRadii):
                 "states entrainment_angle: along a line contact nothing changes, so only the speed "
                 "across it makes a film; state that alone"
             )
-        if not abs(self.entrainment_angle) <= 2.0 * math.pi:
-            raise ValueError(
-                f"states entrainment_angle = {self.entrainment_angle:g} rad, more than a turn: a "
-                'bare number is in radians, write "45 deg"'
-            )
         self._exactly_one(own, "hertz_pressure", "moes_load")
         self._exactly_one("entrainment_speed", "moes_speed")
         return self
