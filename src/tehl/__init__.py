@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tehl.contact.materials import Solid, material
     from tehl.contact.options import Domain, Options
     from tehl.contact.point_contact import Contact, Surface
+    from tehl.estimate.stiffness import film_stiffness
     from tehl.lubricant import Lubricant, oil
     from tehl.studies import solve_contacts, study
     from tehl.studies.fitting.oil import OilFit, fit
@@ -45,6 +46,7 @@ __all__ = [
     "__version__",
     "certify",
     "certify_transient",
+    "film_stiffness",
     "fit",
     "load",
     "material",
@@ -73,6 +75,7 @@ _HOMES = {
         "tehl.contact.materials": ("Solid", "material"),
         "tehl.contact.options": ("Domain", "Options"),
         "tehl.contact.point_contact": ("Contact", "Surface"),
+        "tehl.estimate.stiffness": ("film_stiffness",),
         "tehl.lubricant": ("Lubricant", "oil"),
         "tehl.studies": ("solve_contacts", "study"),
         "tehl.studies.fitting.oil": ("OilFit", "fit"),

@@ -3,8 +3,10 @@
 import math
 from dataclasses import asdict, dataclass
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from tehl.base.errors import InputError
+from tehl.base.lazy import lazy
 from tehl.contact.heat import FilmEnergy, source_form
 from tehl.contact.options import Domain, Options
 from tehl.contact.problem import HOTTEST_TEMPERATURE, ContactProblem
@@ -38,6 +40,11 @@ from tehl.report.readable import UNTITLED
 from tehl.report.rendering import render
 from tehl.report.roughness import CONVERGES, RESOLVES, Asperities, asperities
 from tehl.report.transient_plan import TransientPlan, transient_plan
+
+if TYPE_CHECKING:
+    from tehl.estimate import stiffness
+else:
+    stiffness = lazy("tehl.estimate.stiffness")
 
 NO_BALANCE = (
     "thermal_resistance or cooling of a surface: by formulas the heat of the contact warms a body "
@@ -105,6 +112,16 @@ class Explanation:
     def seconds_range(self) -> tuple[float, float]:
         """Least and largest time of the solve to expect [s]."""
         return seconds_range(self.scaled, self.seconds)
+
+    @property
+    def stiffness(self) -> "stiffness.FilmStiffness | None":
+        """Stiffness and damping at rest by the table, if they are asked for and it has them."""
+        if self.scaled.problem.dynamics is None:
+            return None
+        try:
+            return stiffness.film_stiffness(self.scaled.problem, [0.0])
+        except InputError:
+            return None
 
     @property
     def supply_ratio(self) -> float:
