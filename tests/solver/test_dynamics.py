@@ -26,6 +26,15 @@ INDEPENDENT = {
 DOMAIN = Domain(x=(-3.5, 1.5), y=(-2.5, 2.5))
 
 
+LINES = {
+    (100.0, 11.0): {0.1: (4.50010561, 0.00897385956), 1.0: (4.55554681, 0.0432743875),
+                    3.0: (4.5171808, 0.0536961194)},
+    (20.0, 10.0): {0.1: (4.34669678, 0.0481125348), 1.0: (4.65038614, 0.233766637),
+                   3.0: (4.47579953, 0.237891212), 10.0: (4.74892539, 0.414197655)},
+}  # fmt: skip
+"""The same of line contacts held at a half-width, in p_h R/b, of the same solver."""
+
+
 def on(points: int, **settings: object) -> Options:
     return Options(points=points, domain=DOMAIN, edges="zero", **settings)
 
@@ -66,6 +75,55 @@ def test_stiffness_and_damping_are_those_of_an_independent_solver(group):
         assert stiffness[number] == pytest.approx(k, rel=max(1e-3, bar[number]))
         if omega_c is not None:
             assert damping[number] == pytest.approx(omega_c, rel=0.03)
+
+
+def line_problem(load, speed, **tables):
+    contact = {"type": "line", "radius": 0.02, "moes_load": load, "moes_speed": speed}
+    point = moes_contact(load, speed).model_dump(exclude_none=True)
+    return ContactProblem.model_validate(point | {"contact": contact} | tables)
+
+
+@pytest.mark.parametrize("group", LINES, ids=str)
+def test_a_line_contact_has_the_response_of_an_independent_solver(group):
+    known, problem = LINES[group], line_problem(*group)
+    film = solve(at(problem, *known), Options(points=513)).dynamics
+    scale, E = scales(problem), problem.reduced_modulus
+    unit = scale.hertz_pressure * problem.radius_x / scale.half_width_x
+    # without the solids from a half-width to R_x, at which surfaces are held by default
+    solids = 4.0 / (np.pi * E) * np.log(problem.radius_x / scale.half_width_x)
+    near = 1.0 / (1.0 / film.impedance - solids) / unit
+    for number, (k, omega_c) in enumerate(known.values(), start=1):
+        assert near.real[number] == pytest.approx(k, rel=2.5e-3)
+        # the far field of a line: 0.5 % at Omega = 1, 1.5 % at 3 and 3 % at 10
+        assert near.imag[number] == pytest.approx(omega_c, rel=0.035)
+    assert film.stiffness[0] < 0.4 * unit * 4.5
+
+
+def test_lines_with_heat_or_scarce_oil_and_at_other_distances_have_a_response():
+    oil = moes_contact(50.0, 10.0).model_dump(exclude_none=True)["lubricant"]
+    oil["viscosity"] |= {"gamma": 0.04}
+    oil |= {"conductivity": 0.14, "heat_capacity": 2000.0}
+    parts = {"thermal": {}, "lubricant": oil}, {"supply": {"ratio": 0.6}}, {}
+    warm, scarce, plain = (
+        solve(at(line_problem(50.0, 10.0, **part), 1.0), Options(points=257)).dynamics
+        for part in parts
+    )
+    for film in (warm, scarce):
+        assert (film.damping > 0.0).all()
+        assert film.stiffness == pytest.approx(plain.stiffness, rel=0.05)
+    problem = line_problem(50.0, 10.0)
+    half = scales(problem).half_width_x
+    given = at(problem, 1.0).model_dump(exclude_none=True)
+    given["dynamics"] |= {"held_at": 100.0 * half}
+    far = solve(ContactProblem.model_validate(given), Options(points=257)).dynamics
+    more = 4.0 / (np.pi * problem.reduced_modulus) * np.log(100.0 * half / problem.radius_x)
+    np.testing.assert_allclose(1.0 / far.impedance, 1.0 / plain.impedance + more, rtol=1e-6)
+    given["dynamics"] |= {"held_at": 0.5 * half}
+    with pytest.raises(ValueError, match="outside the contact"):
+        ContactProblem.model_validate(given)
+    ball = moes_contact(50.0, 10.0).model_dump(exclude_none=True)
+    with pytest.raises(ValueError, match="only for line contacts"):
+        ContactProblem.model_validate(ball | {"dynamics": {"held_at": 0.01}})
 
 
 def test_at_rest_the_stiffness_is_that_of_two_steady_films():

@@ -140,7 +140,6 @@ def test_a_certified_line_has_bars():
     ("tables", "why"),
     [
         ({"supply": {"layer": "0.2 um", "track": "0.2 m"}}, "no oil flows aside"),
-        ({"dynamics": {}}, "approach each other without limit"),
     ],
 )
 def test_what_lines_do_not_have_is_refused(tables, why):

@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar, Self
 from pydantic import Field, model_validator
 
 from tehl.base.table import Table
-from tehl.base.units import Frequency
+from tehl.base.units import Frequency, Length
 
 NUMBER_OF_FREQUENCIES, OMEGA_RANGE = 19, (0.03, 30.0)
 """Frequencies where none are stated, and their range as omega a_x / u_m [-]: below it stiffness and
@@ -17,10 +17,14 @@ damping have their values at rest, and above it waves are shorter than a fifth o
 class Dynamics(Table):
     """Frequencies at which stiffness and damping of the film are computed, beside zero."""
 
-    synonyms: ClassVar = {"frequencies": "frequency freq f omega"}
+    synonyms: ClassVar = {"frequencies": "frequency freq f omega", "held_at": "reference distance"}
 
     frequencies: Annotated[tuple[Frequency, ...], Field(min_length=1, max_length=500)] | None = None
     """Increasing frequencies [Hz]; left out, 19 of omega a_x/u_m from 0.03 to 30."""
+
+    held_at: Length | None = None
+    """Of a line contact, distance along x from the contact at which the surfaces of both bodies do
+    not move [m]: without one the approach of half-spaces has no limit. R_x if left out."""
 
     @model_validator(mode="after")
     def _must_increase(self) -> Self:

@@ -299,10 +299,6 @@ def check_line(problem: PointContact) -> None:
     supply, thermal = problem.supply, problem.thermal
     resting = thermal is not None and any(problem.motion.speed_of(one) == 0.0 for one in (1, 2))
     excluded = {
-        "dynamics": (
-            problem.dynamics is not None,
-            "two half-spaces under a line load approach each other without limit",
-        ),
         "supply": (
             supply is not None and (supply.profile is not None or supply.track is not None),
             "no oil flows aside, so profile, track and passes have no effect; state layer or ratio",
@@ -344,6 +340,14 @@ def check_dynamics(problem: PointContact) -> None:
     for name, (is_stated, why) in excluded.items():
         if problem.dynamics is not None and is_stated:
             raise ValueError(f"dynamics and {name} exclude each other: {why}; leave out one")
+    held = None if problem.dynamics is None else problem.dynamics.held_at
+    if held is not None and not problem.contact.is_line:
+        raise ValueError("dynamics.held_at is only for line contacts; leave it out")
+    if held is not None and not held > problem.hertz.half_width_x:
+        raise ValueError(
+            f"dynamics.held_at = {held:g} m: must be outside the contact, whose half-width is "
+            f"{problem.hertz.half_width_x:.3g} m"
+        )
 
 
 def check_radii(problem: PointContact) -> None:

@@ -14,7 +14,6 @@ is exact for the second term.
 """
 
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import solve_banded
@@ -23,7 +22,7 @@ from tehl.base.typing import Array, BoolArray
 from tehl.contact.shape import LINE
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
-from tehl.operators.upstream import UpstreamField
+from tehl.operators.upstream import EdgeSlopes, UpstreamField
 
 ANGLES = 1025
 """Nodes of f over the angle; the error of its values is below 1e-4 of its maximum."""
@@ -159,18 +158,6 @@ def far_field(grid: Grid, groups: Groups) -> "FarField | UpstreamField":
         Shape, and lambda of the oil that enters.
     """
     return UpstreamField(grid, groups) if groups.shape is LINE else FarField(grid, groups)
-
-
-class EdgeSlopes(NamedTuple):
-    """Change of the pressure on the edges, (ny, nx), and of the load outside.
-
-    By that of the film and by its rate (`angular_squeeze`).
-    """
-
-    by_film: Array
-    by_rate: Array
-    load_by_film: float
-    load_by_rate: float
 
 
 class FarField:

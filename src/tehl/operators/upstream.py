@@ -35,6 +35,20 @@ class Beyond(NamedTuple):
     rolling: float
 
 
+class EdgeSlopes(NamedTuple):
+    """Change of the pressure on the edges, (ny, nx), and of the load outside.
+
+    By that of the film and by its rate; of a line contact also by the flux of the oil.
+    """
+
+    by_film: Array
+    by_rate: Array
+    load_by_film: float
+    load_by_rate: float
+    by_flux: float = 0.0
+    load_by_flux: float = 0.0
+
+
 NOTHING = Beyond(0.0, 0.0, 0.0)
 """Upstream of a starved film there is no pressure."""
 
@@ -53,7 +67,7 @@ def beyond(edge: float, film: float, flux: float, groups: Groups) -> Beyond:
     """
     t, weight = _gauss()
     x = edge / t
-    h = film + 0.5 * (x**2 - edge**2) + 0.5 * np.log(t) + (1.0 / x**2 - 1.0 / edge**2) / 16.0
+    h = gap_beyond(edge, film, t)
     slope = groups.lambda_bar * weight * (h - flux) / h**3  # P' |dX|
     slope *= -edge / t**2
     thicker = min(groups.alpha_bar * float(slope.sum()), MOST_THICKENING)
@@ -61,6 +75,21 @@ def beyond(edge: float, film: float, flux: float, groups: Groups) -> Beyond:
     pressure = float(slope.sum())
     load = float((slope * (edge - x)).sum())
     return Beyond(pressure, load, float((slope * h).sum()))
+
+
+def gap_beyond(edge: float, film: float, t: Array) -> Array:
+    """Return H upstream of an edge at X = edge / t [-].
+
+    Parameters
+    ----------
+    edge, film : float
+        X_a < 0, and H there [-].
+    t : array
+        Between 0 and 1.
+    """
+    x = edge / t
+    bent = 0.5 * np.log(t) + (1.0 / x**2 - 1.0 / edge**2) / 16.0
+    return np.asarray(film + 0.5 * (x**2 - edge**2) + bent)
 
 
 def rolling(x: Array, pressure: Array, film: Array, upstream: Beyond) -> tuple[float, float]:
@@ -131,6 +160,34 @@ class UpstreamField:
         """
         del gap
         return self._beyond(film).load
+
+    def slopes(self, film: Array, gap: Array) -> EdgeSlopes:
+        r"""Return the changes by those of film and flux at the edge, and by the rate of the film.
+
+        Where the gap opens, the flux at X is :math:`q_a + \dot H (X_a - X)`.
+
+        Parameters
+        ----------
+        film, gap : array of the shape of the grid
+            H; the gap follows from its value on the edge.
+        """
+        del gap
+        inlet = float(film[0, 0])
+        flux, step = min(float(film[0, self.middle]), inlet), 1e-4 * inlet
+        higher, lower = (
+            beyond(self.edge, one, flux, self.groups) for one in (inlet + step, inlet - step)
+        )
+        t, weight = _gauss()
+        x, h = self.edge / t, gap_beyond(self.edge, inlet, t)
+        per_flux = -self.groups.lambda_bar * weight / h**3 * -self.edge / t**2
+        by_flux, load_by_flux, load_by_rate = (
+            float((per_flux * (self.edge - x) ** power).sum()) for power in range(3)
+        )
+        by_film, by_rate = np.zeros_like(film), np.zeros_like(film)
+        by_film[0, 0] = (higher.pressure - lower.pressure) / (2.0 * step)
+        by_rate[0, 0] = load_by_flux
+        load_by_film = (higher.load - lower.load) / (2.0 * step)
+        return EdgeSlopes(by_film, by_rate, load_by_film, load_by_rate, by_flux, load_by_flux)
 
     def _beyond(self, film: Array) -> Beyond:
         inlet = max(float(film[0, 0]), 0.5 * self.edge**2 * 1e-3)

@@ -4,6 +4,7 @@ The linear equations are those of `tehl.solver.physics.response`.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -67,7 +68,8 @@ def film_dynamics(run: FilmSolver, settings: Dynamics) -> FilmDynamics:
     omegas, excess = 2.0 * np.pi * frequency * time, run.coupling.excess()
     found = changes(run.levels, omegas, excess)
     near = run.finest.equations.grid
-    lengths = (groups.ellipticity * near.dy, near.dx)
+    is_line = near.shape[0] == 1
+    lengths = (1.0 if is_line else groups.ellipticity * near.dy, near.dx)
     wet = run.finest.film.p > 0.0
     inside = (distance_transform_edt(wet, sampling=lengths) > FRONT_DISTANCE) & wet
     pressure = run.finest.film.p[inside]
@@ -94,7 +96,7 @@ def film_dynamics(run: FilmSolver, settings: Dynamics) -> FilmDynamics:
     by_speed = in_si(found.load_by_speed, force / scales.speed)
     rolling = in_si(found.rolling_by_approach, tangent / film)
     rolling_by_speed = in_si(found.rolling_by_speed, tangent / scales.speed)
-    return FilmDynamics(
+    near_contact = FilmDynamics(
         frequency=frequency,
         stiffness=stiffness,
         damping=damping,
@@ -107,6 +109,57 @@ def film_dynamics(run: FilmSolver, settings: Dynamics) -> FilmDynamics:
         rolling_damping=rolling[1],
         rolling_by_speed=rolling_by_speed[0],
         rolling_by_acceleration=rolling_by_speed[1],
+    )
+    if not is_line:
+        return near_contact
+    problem = run.hierarchy.scaled.problem
+    held = settings.held_at or problem.radius_x
+    solids = 4.0 / (np.pi * problem.reduced_modulus) * np.log(held / scales.half_width_x)
+    return held_away(near_contact, float(solids))
+
+
+Pair = tuple[Array, Array]
+"""A complex function of omega: its real part, and its imaginary part over omega."""
+
+
+def held_away(film: FilmDynamics, compliance: float) -> FilmDynamics:
+    """Return the dynamics with an elastic compliance in series, the solids of a line contact.
+
+    Parameters
+    ----------
+    film : FilmDynamics
+        By the approach at the contact.
+    compliance : float
+        [m/N].
+    """
+    squared = (2.0 * np.pi * film.frequency) ** 2
+
+    def product(one: Pair, other: Pair) -> Pair:
+        (a, b), (c, d) = one, other
+        return a * c - squared * b * d, a * d + b * c
+
+    load, by_speed = (film.stiffness, film.damping), (film.load_by_speed, film.load_by_acceleration)
+    rolling = film.rolling_stiffness, film.rolling_damping
+    softer = 1.0 + compliance * load[0], compliance * load[1]
+    size = softer[0] ** 2 + squared * softer[1] ** 2
+    part = softer[0] / size, -softer[1] / size  # of the approach, at the contact
+    stiffness, damping = product(load, part)
+    by_speed = product(by_speed, part)
+    pressed = product(rolling, by_speed)
+    rolling = product(rolling, part)
+    return replace(
+        film,
+        stiffness=stiffness,
+        damping=damping,
+        stiffness_error=film.stiffness_error / size,
+        damping_error=film.damping_error / size,
+        amplitude=film.amplitude * np.sqrt(size),
+        load_by_speed=by_speed[0],
+        load_by_acceleration=by_speed[1],
+        rolling_stiffness=rolling[0],
+        rolling_damping=rolling[1],
+        rolling_by_speed=film.rolling_by_speed - compliance * pressed[0],
+        rolling_by_acceleration=film.rolling_by_acceleration - compliance * pressed[1],
     )
 
 
@@ -172,6 +225,9 @@ def _forces(system: FilmResponse, change: Array, moved: float) -> Array:
     load = weights @ pressure
     if system.outside is not None:
         load += system.outside.load_by_film * film.reshape(level.grid.shape)[:, 0].mean()
+    if system.face is not None and system.outside is not None:
+        by_pressure, by_film, _ = system.face
+        load += system.outside.load_by_flux * (by_pressure @ pressure + by_film @ film)
     return np.array([load, rolling])
 
 

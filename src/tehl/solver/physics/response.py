@@ -25,7 +25,7 @@ from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
 
 from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
-from tehl.operators.far_field import EdgeSlopes, FarField
+from tehl.operators.far_field import EdgeSlopes
 from tehl.operators.jacobian import Cavity, flux_difference, jacobian, rows
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.linearised import conductance_slopes
@@ -76,11 +76,15 @@ class FilmResponse:
         ones = np.ones(inner.size)
         found = self._coefficients(ones if stored is None else stored.ravel())
         self.outside = None
-        if isinstance(far, FarField):
+        self.face: tuple[Array, Array, float] | None = None
+        if far is not None:
             self.outside = far.slopes(film.h, level.equations.gap)
             edge = (film.p > 0.0).ravel() & ~inner & (self.outside.by_film != 0.0).ravel()
             self.unknown = self.carries = self.unknown | edge
             found = _with_edges(found, edge.astype(float), film.p.ravel(), self.outside)
+            if self.outside.by_flux:
+                self.face = _face(level)
+                found = _with_flux(found, self.outside.by_flux, self.face, level.grid.dx)
         near = level.equations.influence.self_film
         size = np.asarray(abs(found.by_pressure).sum(1) + near * abs(found.by_film).sum(1)).ravel()
         scale = np.where(self.unknown, 1.0 / np.where(self.unknown, size, 1.0), 0.0)
@@ -174,6 +178,39 @@ def _with_edges(
         (1.0 - edge) * inner.density + edge * slopes.by_rate.ravel(),
         (1.0 - edge) * inner.denser,
         inner.wedge + edge * pressure,
+    )
+
+
+def _face(level: Level) -> tuple[Array, Array, float]:
+    """Return the flux of the oil through the first face of a line, to first order.
+
+    Its changes by pressure and film at all nodes, (n,) each, and rho H there less the flux.
+    """
+    film, dx = level.film, level.grid.dx
+    by_pressure, by_film = np.zeros(film.p.size), np.zeros(film.p.size)
+    eps, slope = 0.5 * (film.eps[0, 0] + film.eps[0, 1]), (film.p[0, 1] - film.p[0, 0]) / dx
+    by_pressure[:2] = eps / dx, -eps / dx
+    # eps is as H^3
+    by_film[:2] = 0.5 * film.rho[0, :2] - 1.5 * film.eps[0, :2] / film.h[0, :2] * slope
+    return by_pressure, by_film, float(eps * slope)
+
+
+def _with_flux(
+    inner: Coefficients, by_flux: float, face: tuple[Array, Array, float], dx: float
+) -> Coefficients:
+    """Return the coefficients with the change of the pressure at the inlet edge by the flux."""
+    by_pressure, by_film, spare = face
+    first = np.zeros((by_film.size, 1))
+    first[0, 0] = -by_flux
+    density, wedge = inner.density.copy(), inner.wedge.copy()
+    density[0] += 0.5 * dx * by_flux  # the flux at the edge, half a mesh width upstream
+    wedge[0] += by_flux * spare
+    return Coefficients(
+        csr_matrix(inner.by_pressure + csr_matrix(first) @ csr_matrix(by_pressure)),
+        csr_matrix(inner.by_film + csr_matrix(first) @ csr_matrix(by_film)),
+        density,
+        inner.denser,
+        wedge,
     )
 
 
@@ -275,7 +312,8 @@ def moving_front(level: Level) -> tuple[csr_matrix, Array]:
     begins = wet[:, 1:] & ~wet[:, :-1] & (film.partial[:, :-1] > 0)
     has: BoolArray = np.asarray(begins.any(axis=1))
     first = np.minimum(np.argmax(begins, axis=1) + 1, grid.nx - 2)
-    has[[-1] if grid.mirror else [0, -1]] = False
+    if lines.size > 1:  # a line contact has no edges along y
+        has[[-1] if grid.mirror else [0, -1]] = False
     here, node = film.p[lines, first], lines * grid.nx + first
     rise = np.where(has, film.p[lines, first + 1] - here, 1.0)
     place = grid.x[first] - grid.dx * np.clip(here / np.where(rise > 0.0, rise, np.inf), 0.0, 1.0)
@@ -294,7 +332,7 @@ def moving_front(level: Level) -> tuple[csr_matrix, Array]:
     ]
     row, column, value = (np.concatenate(part) for part in zip(*entries, strict=True))
     along = csr_matrix((value, (row, column)), shape=(wet.size, wet.size))
-    before = np.append(-slope[0] if grid.mirror else 0.0, slope)
+    before = np.append(-slope[:1] if grid.mirror and slope.size else 0.0, slope)
     mean, swept = 0.5 * (before + np.append(slope, 0.0)), np.zeros(wet.size)
     swept[node[has]] = (eps * (1.0 + mean**2) / grid.dx)[has]
     return along, swept
