@@ -14,6 +14,7 @@ is exact for the second term.
 """
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import solve_banded
