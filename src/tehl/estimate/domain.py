@@ -10,6 +10,7 @@ from tehl.contact.shape import LINE
 from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film, moes_film_unit
 from tehl.estimate.line import (
+    HEATED_LINE_ERROR,
     LINE_ERROR,
     LINE_ROUGH_NODES,
     OUTLET,
@@ -306,7 +307,7 @@ def _of_one_row(problem: ContactProblem, options: Options) -> Options:
     if options.wedge_order is None and options.extrapolate is None and _is_smooth(problem):
         changes["wedge_order"] = 3
     if options.error is None and points == "auto" and _is_smooth(problem):
-        changes["error"] = LINE_ERROR
+        changes["error"] = HEATED_LINE_ERROR if problem.is_coupled else LINE_ERROR
     if isinstance(points, int):
         changes["points"] = (points, 1)
     if domain != "auto" and domain.y != LINE_WIDTH:
@@ -434,5 +435,6 @@ def _of_film(scaled: ScaledProblem, error: float) -> Domain:
     while factor < LARGEST_DOMAIN_FACTOR and entry_error(scaled, domain) > ENTRY_PART * error:
         factor = min(DOMAIN_STEP * factor, LARGEST_DOMAIN_FACTOR)
         x, y = ((factor * low, factor * high) for low, high in (least.x, least.y))
-        domain = Domain.model_construct(x=x, y=y)
+        is_line = scaled.problem.contact.is_line
+        domain = Domain.model_construct(x=x, y=LINE_WIDTH if is_line else y)
     return domain

@@ -7,8 +7,9 @@ from tehl.contact.options import LINE_WIDTH, USUAL_PLAIN_ERROR, Domain
 from tehl.contact.shape import LINE
 from tehl.estimate.scaling import Groups
 
-LINE_ERROR = 0.002
-"""Relative error of a smooth steady film that is reached by default: some 40 ms."""
+LINE_ERROR, HEATED_LINE_ERROR = 0.002, 0.005
+"""Relative error of a smooth steady film that is reached by default: some 40 ms; and of a heated or
+thinning one, whose minimum is of first order behind the spike, some 100 ms."""
 LINE_ROUGH_NODES = 8192
 """Most nodes because of waves of the surfaces."""
 LEAST_LINE_INLET, INLET_ERROR_PART = 3.4, 0.15

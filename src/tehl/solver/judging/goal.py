@@ -169,7 +169,7 @@ class Goal:
         available = memory_limit(self.options)
         self.obstacle = ""
         if errors is not None and errors.domain > self.options.target:
-            cause = "the domain, upstream of which the bodies warm or cool the oil"
+            cause = "the domain, upstream of which the oil warms or cools"
             if isinstance(self.options.domain, Domain):
                 cause = "numerics.domain"
             self.obstacle = f"{percentage(errors.domain)} are due to {cause}"

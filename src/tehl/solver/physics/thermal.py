@@ -99,7 +99,7 @@ class Coupling:
         if self.film is None:
             return False
         fine, coarser = levels[-1], self.state
-        large = min(fine.grid.nx, fine.grid.ny) > COUPLED_FROM
+        large = min(n for n in fine.grid.points if n > 1) > COUPLED_FROM
         resolved = float(fine.film.h.min()) > RESOLVED_FILM_OVER_FLOOR * fine.equations.floor
         if not (finest or coarser is not None or (large and resolved)):
             return False
