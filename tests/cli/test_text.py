@@ -119,7 +119,7 @@ def test_the_effect_of_roughness_includes_traction_if_there_is_sliding(rough, sm
 
 def test_a_case_without_a_title_has_one(result):
     bare = replace(result, problem=result.problem.model_copy(update={"title": ""}))
-    assert as_text(bare).startswith("Lubricated point contact - ")
+    assert as_text(bare).startswith("Lubricated contact - ")
 
 
 def test_a_film_that_is_not_positive_has_no_value(result):

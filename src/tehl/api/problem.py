@@ -16,7 +16,7 @@ else:
 
 
 class ContactProblem(plain.ContactProblem):
-    """A lubricated point contact.
+    """A lubricated contact.
 
     Its fields are the tables of the case file, so that reading a case is validating the parsed
     file.

@@ -29,7 +29,7 @@ COMMANDS = {
 }
 """Subcommands in the order of the help, and the module of this package with their function."""
 
-_HELP = "Elastohydrodynamic lubrication of point contacts by full multigrid."
+_HELP = "Elastohydrodynamic lubrication of point and line contacts by full multigrid."
 _EPILOG = "Begin: tehl new > case.toml, then tehl explain case.toml, then tehl solve case.toml."
 
 

@@ -152,7 +152,7 @@ def _page(movie: "Movie", per_second: int) -> str:
         buffer = io.BytesIO()
         Image.fromarray(movie.pixels(number)).save(buffer, format="png", optimize=True)
         moments.append(base64.b64encode(buffer.getvalue()).decode("ascii"))
-    title = escape(movie.run.start.problem.title or "Lubricated point contact")
+    title = escape(movie.run.start.problem.title or "Lubricated contact")
     return _PAGE.format(title=title, moments=json.dumps(moments), pause=round(1e3 / per_second))
 
 

@@ -74,7 +74,7 @@ def figure(
     start = result.start if isinstance(result, TransientSolution) else result
     picture = Picture(figsize=size, layout="constrained")
     if title:
-        words = fill(start.problem.title, 80).replace("$", r"\$") or "Lubricated point contact"
+        words = fill(start.problem.title, 80).replace("$", r"\$") or "Lubricated contact"
         picture.suptitle(f"{words}\n{_subtitle(result, start)}\n{note}".strip(), fontsize=9)
     if not result.status.converged:
         picture.supxlabel(_banner(result), fontsize=11, **_ALARM)

@@ -65,7 +65,7 @@ def centre_lines(result: Solution, *, title: bool | None = True) -> Figure:
         grid, profiles, WINDOW[:rows], lines, strict=True
     ):
         place, scaled = profile.coordinate * MICRO, profile.scaled_coordinate
-        curves = [_pressure_and_film(panels[0], result, profile)]
+        curves = [_pressure_and_film(panels[0], result, profile, line)]
         if thermal:
             for rise, style in rises(result, line):
                 panels[1].plot(place, rise, **style)
@@ -80,12 +80,12 @@ def centre_lines(result: Solution, *, title: bool | None = True) -> Figure:
         lower.set_xlabel("y [µm]  (x = 0)")
         upper.set_xlabel("x along entrainment [µm]" if rows == 1 else ALONG_X)
         below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.15)}
-        lower.legend(handles=handles, ncols=4, **below, **PLAIN)
+        lower.legend(handles=handles, ncols=5, **below, **PLAIN)
     return picture
 
 
-def _pressure_and_film(axes: Axes, result: Solution, profile: Profile) -> list[Any]:
-    """Draw pressure and film along a line; return the curves."""
+def _pressure_and_film(axes: Axes, result: Solution, profile: Profile, line: Line) -> list[Any]:
+    """Draw pressure, film, and the oil in it along a line; return the curves."""
     place, film = profile.coordinate * MICRO, axes.twinx()
     dry: dict[str, Any] = {"color": "0.45", "lw": 1.0, "ls": "--", "label": "dry Hertz"}
     axes.plot(place, profile.hertz_pressure * GIGA, **dry)
@@ -94,8 +94,11 @@ def _pressure_and_film(axes: Axes, result: Solution, profile: Profile) -> list[A
     axes.set_ylim(bottom=0.0)
     film.plot(place, profile.dry_gap * MICRO, color=FILM, lw=0.8, ls=":", label="dry gap")
     film.plot(place, profile.film_thickness * MICRO, color=FILM, lw=1.4, label="film")
+    if result.oil is not None:
+        oil = result.oil.fill[line] * profile.film_thickness * MICRO
+        film.fill_between(place, oil, color=FILM, alpha=0.15, linewidth=0.0, label="oil")
     _show_film_behind(axes, film, result, 4.0)
-    return [*axes.lines, *film.lines]
+    return [*axes.lines, *film.lines, *film.collections]
 
 
 def _show_film_behind(axes: Axes, film: Axes, result: Solution, most: float) -> None:

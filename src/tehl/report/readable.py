@@ -8,7 +8,7 @@ from pydantic import BaseModel
 
 from tehl.base.units import Quantity
 
-UNTITLED = "Lubricated point contact"
+UNTITLED = "Lubricated contact"
 """Title of a case that states none."""
 
 _LENGTHS = ((1e-3, 1e3, "mm"), (1e-6, 1e6, "um"), (0.0, 1e9, "nm"))

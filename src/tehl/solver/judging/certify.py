@@ -227,7 +227,7 @@ def message_on(grids: list[str], wide: str) -> str:
 def nodes_of(options: Options) -> str:
     """Return the nodes of the finest grid as text."""
     ny, nx = options.shape
-    return f"{nx} x {ny}"
+    return f"{nx}" if ny == 1 else f"{nx} x {ny}"
 
 
 def halved(options: Options, times: int) -> Options:

@@ -72,7 +72,7 @@ def not_reached(run: FilmSolver) -> Status:
         else "the film still changes by more than a third of its discretisation error"
     )
     message = (
-        f"After {len(reports)} cycles on {last.points[0]} x {last.points[1]} nodes the "
+        f"After {len(reports)} cycles on {grid_size(last.points)} the "
         f"{worst} is {numbers[worst]:.1e}; {wanted}."
     )
     hint = Hint(
@@ -103,7 +103,7 @@ def _likely_cause(run: FilmSolver) -> LikelyCause | None:
     return LikelyCause(
         cause="grid_too_coarse",
         message=(
-            f"The film of the next coarser grid, of {level.grid.nx} x {level.grid.ny} nodes, is "
+            f"The film of the next coarser grid, of {grid_size(level.grid.points)}, is "
             f"not positive (smallest H = {smallest:.3g} at X = {x:.3g}, Y = {y:.3g} half-widths), "
             "so it is not a start for this one."
         ),

@@ -53,8 +53,9 @@ def solved_on_other_nodes(
         left = end - time.perf_counter()
         if left <= 0.0:
             break
-        monitor.message(f"trying {more} x {more} nodes")
-        options = failed.options.on_points(more, more).model_copy(update={"max_time": left})
+        points = (more, 1 if failed.problem.contact.is_line else more)
+        monitor.message(f"trying {grid_size(points)}")
+        options = failed.options.on_points(*points).model_copy(update={"max_time": left})
         with suppress(TehlError):
             found = solve(failed.problem, options)
             errors = found.errors

@@ -281,7 +281,7 @@ class Run:
         if self.problem.is_rough:
             cause = "asperity_contact"
             message = (
-                f"{where}. On {grid.nx} x {grid.ny} nodes asperities would touch there, which a "
+                f"{where}. On {grid_size(grid.points)} asperities would touch there, which a "
                 "film that carries the whole load does not describe; on a finer grid they may "
                 "not. The steps before it are kept."
             )
