@@ -1,4 +1,4 @@
-"""Elastohydrodynamic lubrication of point contacts by full multigrid.
+"""Elastohydrodynamic lubrication of point and line contacts by full multigrid.
 
 ::
 
