@@ -4,7 +4,13 @@ import pytest
 
 from tehl.base.errors import InputError
 from tehl.contact.options import Options
-from tehl.estimate.memory import available_memory, check_memory, needed_memory
+from tehl.estimate.memory import (
+    USUAL_MEMORY,
+    available_memory,
+    check_memory,
+    memory_limit,
+    needed_memory,
+)
 
 
 def test_the_memory_of_the_machine_is_found():
@@ -49,3 +55,11 @@ def test_the_limit_of_a_container_counts(monkeypatch, tmp_path):
     assert available_memory() == 1e6
     (tmp_path / "max").write_text("max\n")
     assert available_memory() != 1e6
+
+
+def test_a_solve_takes_no_more_than_usual_unless_it_may(monkeypatch):
+    monkeypatch.setattr("tehl.estimate.memory.available_memory", lambda: 1e12)
+    assert memory_limit(Options()) == USUAL_MEMORY
+    assert memory_limit(Options.model_validate({"max_memory": "4 GB"})) == 4e9
+    monkeypatch.setattr("tehl.estimate.memory.available_memory", lambda: 1e9)
+    assert memory_limit(Options()) == 5e8

@@ -160,8 +160,23 @@ def test_auto_sums_by_lines_on_few_lines(across, mirror, method):
     assert isinstance(choose("auto", grid_of(257, across, mirror=mirror), contact_groups()), method)
 
 
-def test_auto_does_not_take_the_multilevel_sum_on_long_cells():
-    wide = contact_groups(100.0)
+@pytest.mark.parametrize("ratio", [0.02, 10.0, 60.0])
+def test_the_multilevel_sum_is_as_accurate_on_the_cells_of_bearings(ratio):
+    grid, numbers = grid_of(257, 129, mirror=True, domain=DOMAIN), contact_groups()
+    spike = np.exp(-(((grid.x - 0.8) / 0.05) ** 2))
+    pressure = dry_pressure(grid, numbers) * (1.0 + 0.3 * spike)
+    exact = deflection("lines", grid, pressure, ratio)
+    error = deflection("mlmi", grid, pressure, ratio) - exact
+    assert np.abs(error).max() < 1.2e-4 * exact.max()
+    # second differences along x, which the pressure would have to balance
+    assert np.abs(np.diff(error, 2, axis=1)).max() < 3e-5 * exact.max()
+
+
+def test_auto_takes_the_multilevel_sum_on_all_but_very_long_cells():
+    slender = contact_groups(13.0)
+    auto = choose("auto", grid_of(513, 257, mirror=True), slender)
+    assert isinstance(auto, MultilevelDeformation)
+    wide = contact_groups(900.0)
     assert isinstance(choose("auto", grid_of(257, 257, mirror=True), wide), FftDeformation)
     assert isinstance(choose("auto", grid_of(65, 257, mirror=True), wide), LineDeformation)
 

@@ -11,10 +11,13 @@ from tehl.contact.problem import ContactProblem
 
 BYTES_PER_NODE = 180
 """Measured peak memory of an isothermal Newtonian solve per node of the finest full grid."""
-BYTES_COUPLED, BYTES_PER_LAYER = 270, 10
-"""Added by heat or shear thinning: per node, and per node and layer across the film."""
-USABLE_MEMORY_PART = 0.5
-"""Part of the free memory that a solve takes unasked."""
+BYTES_COUPLED, BYTES_HEATED, BYTES_PER_LAYER = 270, 300, 10
+"""Added by heat or shear thinning, and by heat: per node, and per node and layer across the film.
+Slender contacts on 1025 x 513 nodes took 570 and 750 to 1010, where a second strategy follows up to
+1.4 times as much."""
+USABLE_MEMORY_PART, USUAL_MEMORY = 0.5, 0.9e9
+"""Part of the free memory that a solve takes unasked, and most [byte]: so the process stays below
+1.5 GB."""
 USUAL_LAYERS = 9
 NEGLIGIBLE_MEMORY = 16e6
 """Need that any machine running Python can satisfy [byte]: available memory is not checked."""
@@ -40,8 +43,8 @@ def needed_memory(options: Options, problem: ContactProblem | None = None) -> fl
 def _bytes_per_node(problem: ContactProblem | None) -> float:
     if problem is None or not problem.is_coupled:
         return BYTES_PER_NODE
-    layers = problem.thermal.nodes if problem.thermal else USUAL_LAYERS
-    return BYTES_PER_NODE + BYTES_COUPLED + BYTES_PER_LAYER * layers
+    heated, layers = (BYTES_HEATED, problem.thermal.nodes) if problem.thermal else (0, USUAL_LAYERS)
+    return BYTES_PER_NODE + BYTES_COUPLED + heated + BYTES_PER_LAYER * layers
 
 
 def available_memory() -> float | None:
@@ -54,7 +57,7 @@ def memory_limit(options: Options) -> float:
     """Return the memory that a solve may take where its error decides the nodes [byte]."""
     if options.max_memory is not None:
         return float(options.max_memory)
-    return USABLE_MEMORY_PART * (available_memory() or math.inf)
+    return min(USABLE_MEMORY_PART * (available_memory() or math.inf), USUAL_MEMORY)
 
 
 def check_memory(options: Options, problem: ContactProblem | None = None) -> None:

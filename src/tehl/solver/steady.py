@@ -221,7 +221,8 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
     # at other accuracies full multigrid is done before a better start saves a cycle
     start = guess if options.accuracy == "tight" else None
     rungs = ladder(problem, options, rough=heights is not None)
-    attempts: list[Attempt] = []
+    best: Attempt | None = None
+    known: list[Reached] = []
     for number, strategy in enumerate(rungs):
         if number:
             monitor.message(f"falling back to {strategy.description}")
@@ -235,14 +236,18 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
         )
         # Newton's method is expensive: the cycles before it are tried to the end
         only_newton_left = all(one.newton for one in rungs[number + 1 :])
-        attempts.append(_run(run, force=only_newton_left))
-        if attempts[-1].is_final or goal.is_over:
+        attempt = _run(run, force=only_newton_left)
+        if not (attempt.status.converged or problem.is_rough):
+            film = run.reached_before(last=attempt.status.cause == NO_MEMORY)
+            known += [] if film is None else [film]
+        if best is None or attempt.rank <= best.rank:  # of equals the most robust
+            best = attempt
+        if attempt.is_final or goal.is_over:
             break
-    best = min(reversed(attempts), key=lambda attempt: attempt.rank)  # of equals the most robust
+        del run, hierarchy, attempt  # frees its grids, unless it is the best one
+    assert best is not None
     if not (best.status.converged or problem.is_rough):
-        known = [one.run.reached_before(last=one.status.cause == NO_MEMORY) for one in attempts]
-        films = [film for film in known if film is not None]
-        best = replace(best, reached_before=min(films, key=lambda film: film[1], default=None))
+        best = replace(best, reached_before=min(known, key=lambda film: film[1], default=None))
     supplied = _supplied(best.run.finest, flooded)
     result = _result(best, options, tuple(history.reports), clock.cost()).but(supplied=supplied)
     if problem.dynamics is None or not best.status.converged:

@@ -10,7 +10,7 @@ and the mid-film stress of a film that does not thin follows from u = u2, v = 0 
 
 from tehl.base.typing import Record, Records
 from tehl.kernels.compiled import helper
-from tehl.kernels.energy.laws import exponential
+from tehl.kernels.energy.laws import exponential, is_uniform
 from tehl.kernels.energy.records import Across, Model, Place, Terms, Work
 from tehl.kernels.energy.shear import set_thinning, thin
 from tehl.kernels.lanes import LANES, Lanes
@@ -24,11 +24,14 @@ def reach(across: Across, k: int) -> tuple[int, int]:
 
 
 @helper
-def _fluidities(layers: Records) -> None:
+def _fluidities(terms: Terms, layers: Records) -> None:
     """Fill the Newtonian fluidity, one over the viscosity."""
+    uniform, fluidity = is_uniform(terms, layers), exponential(-layers[0].ln_eta)
     for k in range(layers.shape[0]):
         here = layers[k]
-        here.fluidity = exponential(-here.ln_eta)
+        if k > 0 and not uniform:
+            fluidity = exponential(-here.ln_eta)
+        here.fluidity = fluidity
         here.exponent = 1.0
 
 
@@ -83,7 +86,7 @@ def flow(model: Model, line: Record, layers: Records, steps: int) -> None:
     Whether a block starts to thin is decided by its Newtonian stress, which is larger.
     """
     x, y = 1.0 * line.tau_x, 1.0 * line.tau_y
-    _fluidities(layers)
+    _fluidities(model.terms, layers)
     if not set_thinning(model, line):
         moments_of_fluidity(model.across, layers)
         velocities(model.terms, line, layers)

@@ -6,8 +6,8 @@ layers get values and slopes (`tehl.operators.law_table`).
 
 from tehl.base.typing import Array, Record, Records
 from tehl.kernels.compiled import helper
-from tehl.kernels.energy.records import BLOCK, ETA_TERMS, TERMS, Across, Laws, Model
-from tehl.kernels.lanes import LANES, Lanes, greater, lesser, log, power_of_two
+from tehl.kernels.energy.records import BLOCK, ETA_TERMS, TERMS, Across, Laws, Model, Terms
+from tehl.kernels.lanes import LANES, Lanes, greater, largest, lesser, log, power_of_two
 from tehl.kernels.raw import lanes
 
 LARGEST_KERNEL_EXPONENT = 690.0
@@ -109,9 +109,30 @@ def mean_temperature(across: Across, layers: Records) -> Lanes:
 
 
 @helper
+def is_uniform(terms: Terms, layers: Records) -> bool:
+    """Return whether the film is not heated, and all layers have one temperature."""
+    if terms.heat:
+        return False
+    most = 0.0 * layers[0].t
+    for k in range(1, layers.shape[0]):
+        most = greater(most, abs(layers[k].t - layers[0].t))
+    return largest(most) == 0.0
+
+
+@helper
 def evaluate_laws(model: Model, terms: Array, line: Record, layers: Records) -> None:
     """Fill viscosity, density and their slopes at all layers."""
     _coefficients(model.laws, line, terms)
+    if is_uniform(model.terms, layers):
+        first = layers[0]
+        look_up(model.laws, line, first, first.t)
+        for k in range(1, layers.shape[0]):
+            here = layers[k]
+            here.ln_eta = first.ln_eta
+            here.slope = first.slope
+            here.rho = first.rho
+            here.rho_t = first.rho_t
+        return
     mean = mean_temperature(model.across, layers)
     for k in range(layers.shape[0]):
         here = layers[k]

@@ -69,6 +69,8 @@ def _flow_of_block(model: Model, fields: Fields, work: Work, place: Place, steps
     _load_block(model, fields, work, place)
     evaluate_laws(model, work.terms, line, layers)
     flow(model, line, layers, steps)
+    if not model.terms.heat:
+        return
     mass_fluxes(model.across, work, place)
     slowest = layers[0].u
     for k in range(1, layers.shape[0]):

@@ -78,6 +78,10 @@ def _mean_fields(model: Model, fields: Fields, line: Record, layers: Records, pl
 def _powers(model: Model, fields: Fields, line: Record, layers: Records, place: Place) -> None:
     """Write mid-film stress, shear power, compression power and enthalpy fluxes."""
     terms, i, rows = model.terms, place.i, lanes(BLOCK * place.block)
+    fields.tau_x[i, rows] = line.tau_x
+    fields.tau_y[i, rows] = line.tau_y
+    if not terms.heat:
+        return
     h, capacity = line.h, terms.peclet * line.capacity
     shear, compression, along, sideways = 0.0 * h, 0.0 * h, 0.0 * h, 0.0 * h
     for k in range(layers.shape[0]):
@@ -93,16 +97,15 @@ def _powers(model: Model, fields: Fields, line: Record, layers: Records, place: 
     fields.work[i, rows] = compression
     fields.enthalpy_x[i, rows] = along
     fields.enthalpy_y[i, rows] = sideways
-    fields.tau_x[i, rows] = line.tau_x
-    fields.tau_y[i, rows] = line.tau_y
 
 
 @helper
 def write_block(model: Model, fields: Fields, surfaces: Surfaces, work: Work, place: Place) -> None:
     """Write all results of the block."""
     line, layers = work.lines[place.block], work.layers[place.block]
-    store_flux(model.across, surfaces.first, 0, work, place)
-    store_flux(model.across, surfaces.second, 1, work, place)
+    if model.terms.heat:
+        store_flux(model.across, surfaces.first, 0, work, place)
+        store_flux(model.across, surfaces.second, 1, work, place)
     _powers(model, fields, line, layers, place)
     _reynolds_fields(model, fields, layers, place)
     _stretches(model, fields, line, layers, place)

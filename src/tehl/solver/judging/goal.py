@@ -8,7 +8,7 @@ from tehl.base.wording import grid_size
 from tehl.contact.options import Domain, Options, can_be_halved
 from tehl.estimate.domain import far_field_error
 from tehl.estimate.entering import entry_error
-from tehl.estimate.memory import memory_limit, needed_memory
+from tehl.estimate.memory import USUAL_MEMORY, memory_limit, needed_memory
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import supply_error
 from tehl.result.bars import ErrorEstimate
@@ -192,4 +192,5 @@ def _named_limit(options: Options, limit: float) -> str:
     """Return the limit of the memory in words."""
     if options.max_memory is not None:
         return f"numerics.max_memory is {limit / 1e9:.2g} GB"
-    return f"half of what is free is {limit / 1e9:.2g} GB (numerics.max_memory)"
+    whose = "the usual limit" if limit == USUAL_MEMORY else "half of what is free"
+    return f"{whose} is {limit / 1e9:.2g} GB (numerics.max_memory)"
