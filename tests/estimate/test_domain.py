@@ -9,12 +9,15 @@ from tehl.contact.options import Domain, Options, coarsenable, coarsenings
 from tehl.estimate.domain import (
     ENTRY_PART,
     LARGEST_DOMAIN_FACTOR,
+    SLENDER,
     chosen_domain,
     expected_points,
+    far_field_error,
     recommended_domain,
 )
 from tehl.estimate.entering import entry_error
 from tehl.estimate.scaling import ScaledProblem, groups
+from tehl.solver.physics.bodies import solve
 from tests.reference import heated_contact, moes_contact
 
 
@@ -75,6 +78,24 @@ def test_the_proposed_domain_shrinks_with_load_to_the_smallest_one():
 def test_the_proposed_domain_grows_with_the_accuracy():
     wide, usual = (recommended_domain(groups(moes_contact(200, 10.0)), e) for e in (0.0025, 0.02))
     assert wide.x[0] == pytest.approx(2.0 * usual.x[0])
+
+
+@pytest.mark.parametrize(("load", "speed"), [(350, 20.0), (1400, 8.0)])
+def test_near_edges_of_a_slender_contact_change_its_film_by_less_than_they_may(load, speed):
+    problem = moes_contact(load, speed, radius_ratio=16.0)
+    case = groups(problem)
+    near = recommended_domain(case)
+    assert case.ellipticity > SLENDER
+    assert near.y[1] < 2.3
+    far = Domain(x=(2 * near.x[0], 2 * near.x[1]), y=(2 * near.y[0], 2 * near.y[1]))
+    common = {"edges": "far_field", "accuracy": "tight", "tolerance": 1e-4, "wedge_order": 3}
+    films = [
+        solve(problem, Options.model_validate({"points": points, "domain": domain} | common))
+        for points, domain in (((129, 65), near), ((257, 129), far))
+    ]
+    for name in ("central", "minimum"):
+        here, there = (getattr(film.film_scaled, name) for film in films)
+        assert here == pytest.approx(there, rel=far_field_error(case, near))
 
 
 def test_heavier_loads_need_more_points():
