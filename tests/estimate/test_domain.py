@@ -80,9 +80,8 @@ def test_the_proposed_domain_grows_with_the_accuracy():
     assert wide.x[0] == pytest.approx(2.0 * usual.x[0])
 
 
-@pytest.mark.parametrize(("load", "speed"), [(350, 20.0), (1400, 8.0)])
-def test_near_edges_of_a_slender_contact_change_its_film_by_less_than_they_may(load, speed):
-    problem = moes_contact(load, speed, radius_ratio=16.0)
+def test_near_edges_of_a_slender_contact_change_its_film_by_less_than_they_may():
+    problem = moes_contact(350.0, 20.0, radius_ratio=16.0)
     case = groups(problem)
     near = recommended_domain(case)
     assert case.ellipticity > SLENDER

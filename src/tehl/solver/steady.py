@@ -220,7 +220,7 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
     heights = heights_of(scaled, grid) if rough else None
     # at other accuracies full multigrid is done before a better start saves a cycle
     start = guess if options.accuracy == "tight" else None
-    rungs = ladder(problem, options, rough=heights is not None)
+    rungs = ladder(scaled, options, rough=heights is not None)
     best: Attempt | None = None
     known: list[Reached] = []
     for number, strategy in enumerate(rungs):
