@@ -222,7 +222,6 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
     start = guess if options.accuracy == "tight" else None
     rungs = ladder(scaled, options, rough=heights is not None)
     best: Attempt | None = None
-    known: list[Reached] = []
     for number, strategy in enumerate(rungs):
         if number:
             monitor.message(f"falling back to {strategy.description}")
@@ -237,17 +236,11 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
         # Newton's method is expensive: the cycles before it are tried to the end
         only_newton_left = all(one.newton for one in rungs[number + 1 :])
         attempt = _run(run, force=only_newton_left)
-        if not (attempt.status.converged or problem.is_rough):
-            film = run.reached_before(last=attempt.status.cause == NO_MEMORY)
-            known += [] if film is None else [film]
-        if best is None or attempt.rank <= best.rank:  # of equals the most robust
-            best = attempt
+        best = _better(best, attempt)
         if attempt.is_final or goal.is_over:
             break
         del run, hierarchy, attempt  # frees its grids, unless it is the best one
     assert best is not None
-    if not (best.status.converged or problem.is_rough):
-        best = replace(best, reached_before=min(known, key=lambda film: film[1], default=None))
     supplied = _supplied(best.run.finest, flooded)
     result = _result(best, options, tuple(history.reports), clock.cost()).but(supplied=supplied)
     if problem.dynamics is None or not best.status.converged:
@@ -316,6 +309,17 @@ def _surfaces(run: FilmSolver) -> SurfaceHeights | None:
         run.finest.grid.unfold(field) * unit for field in (heights.surface_1, heights.surface_2)
     )
     return SurfaceHeights(surface_1=first, surface_2=second)
+
+
+def _better(best: Attempt | None, attempt: Attempt) -> Attempt:
+    """Return the better attempt, of equals the later one, with the best film on coarser grids."""
+    run, status = attempt.run, attempt.status
+    films = [] if best is None else [best.reached_before]
+    if not (status.converged or run.hierarchy.scaled.problem.is_rough):
+        films.append(run.reached_before(last=status.cause == NO_MEMORY))
+    known = [film for film in films if film is not None]
+    kept = attempt if best is None or attempt.rank <= best.rank else best
+    return replace(kept, reached_before=min(known, key=lambda film: film[1], default=None))
 
 
 def _run(run: FilmSolver, *, force: bool) -> Attempt:
