@@ -24,6 +24,7 @@ from tehl.contact.bodies import reduced_radius
 from tehl.contact.boundary_contact import THICKEST_BOUNDARY_FILM, THINNEST_BOUNDARY_FILM
 from tehl.contact.point_contact import Contact, PointContact, Surface
 from tehl.contact.summits import GreenwoodTripp
+from tehl.contact.transient import COURSES
 from tehl.lubricant.registered import package_of
 
 __all__ = ["Contact", "ContactProblem", "Surface"]
@@ -234,10 +235,15 @@ def check_transient(problem: PointContact) -> None:
                 f"transient.stride = {transient.stride}, too slow for heat in a transient run: "
                 "take a larger stride, or a smaller slide_roll_ratio"
             )
-    if transient.duration is None and not (problem.is_rough or transient.load):
+    stated = [getattr(transient, key) for key in COURSES]
+    if transient.duration is None and any(isinstance(one, str) for one in stated):
         raise ValueError(
-            "transient: nothing changes with time; give a surface roughness, transient.load or "
-            "transient.duration"
+            "transient.duration is missing: a formula of t has no end, so state when the run ends"
+        )
+    if transient.duration is None and not (problem.is_rough or any(stated)):
+        raise ValueError(
+            "transient: nothing changes with time; give a surface roughness, transient.load, "
+            "transient.entrainment_speed or transient.duration"
         )
 
 

@@ -1,6 +1,5 @@
 """Supply of oil and cavitation: the ``[supply]`` and ``[cavitation]`` tables of a case."""
 
-import re
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal, Self
@@ -9,12 +8,10 @@ from pydantic import Field, StrictBool, ValidationInfo, field_validator, model_v
 
 from tehl.base.table import Table
 from tehl.base.units import Height, Length, Place, Quantity, Ratio, quantity
+from tehl.contact.columns import read_columns
 
 THINNEST_LAYER, THICKEST_LAYER = 1e-9, 1e-2
 """Limits of the thickest layer of a supply [m]."""
-LARGEST_PROFILE = 1_000_000
-"""Characters of a profile that are read."""
-
 MOST_PASSES = 100_000
 LEAST_SUPPLY_RATIO, LARGEST_SUPPLY_RATIO = 1e-3, 1e3
 """Least and largest supply over what the flooded contact passes on."""
@@ -112,33 +109,9 @@ def _check_layer(key: str, layer: float) -> None:
 
 def _read_profile(path: Path) -> list[tuple[float, float]]:
     """Return the places and layers of a CSV file [m]; raise ValueError with one sentence."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")[:LARGEST_PROFILE]
-    except (OSError, UnicodeDecodeError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "not a text file"
-        raise ValueError(f"cannot be read ({reason})") from None
-    rows = [
-        re.split(r"[;,\t]|\s+(?!\[)", line.strip()) for line in text.splitlines() if line.strip()
-    ]
-    units = (1.0, 1.0)
-    if rows and "[" in "".join(rows[0]):
-        units = _units(rows.pop(0))
-    try:
-        pairs = [tuple(float(cell) for cell in row if cell) for row in rows]
-    except ValueError:
-        raise ValueError("is not a CSV file of two columns of numbers, y and layer") from None
-    if not pairs or any(len(pair) != len(units) for pair in pairs):
-        raise ValueError("is not a CSV file of two columns of numbers, y and layer")
-    return [(y * units[0], layer * units[1]) for y, layer in pairs]
-
-
-def _units(header: list[str]) -> tuple[float, float]:
-    """Return the factors of the two columns to metres from a header such as ``y [mm]``."""
-    found = re.findall(r"\[([^\]]*)\]", ",".join(header))
-    if len(found) != len(("y", "layer")):
-        raise ValueError("has a header without both units, such as: y [mm], layer [um]")
-    first, second = (quantity(Place).parse(f"1 {unit}") for unit in found)
-    return first, second
+    pairs, units = read_columns(path, ("y", "layer"), "y [mm], layer [um]")
+    first, second = (quantity(Place).parse(f"1 {unit}") for unit in units or ("m", "m"))
+    return [(y * first, layer * second) for y, layer in pairs]
 
 
 class Cavitation(Table):

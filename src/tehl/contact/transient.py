@@ -1,28 +1,28 @@
 """Settings of a transient run: the ``[transient]`` table of a case."""
 
-from bisect import bisect_right
-from itertools import pairwise
 from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
 from tehl.base.table import Table
 from tehl.base.units import Instant, PositiveNumber, Time
+from tehl.contact.course import LoadCourse, RadiusCourse, RatioCourse, SpeedCourse
 
-STEADY = "only load and the roughness of the surfaces vary in time; state it under [contact]"
-LARGEST_FACTOR = 10.0
-"""Largest load over the stated one."""
+
+COURSES = ("load", "entrainment_speed", "slide_roll_ratio", "sliding_speed", "radius")
+"""Keys of what changes in time."""
 
 
 class Transient(Table):
-    """A transient run: surfaces carry their roughness, the load may vary, the film is squeezed."""
+    """A transient run: surfaces carry their roughness, load, motion and radius may vary."""
 
-    other_words: ClassVar = dict.fromkeys(
-        ("entrainment_speed", "slide_roll_ratio", "radius", "radius_x", "radius_y"), STEADY
-    )
+    other_words: ClassVar = {
+        "radius_y": "only the radius along x varies in time; state radius_y under [contact]"
+    }
     synonyms: ClassVar = {
         "duration": "time end_time t_end end",
         "stride": "dt step time_step",
+        "radius": "radius_x",
     }
 
     duration: Time | None = None
@@ -37,9 +37,18 @@ class Transient(Table):
     entrance: PositiveNumber = 2.5
     """Distance upstream of the contact at which waves and random surfaces that enter begin at time
     zero [a_x]."""
-    load: tuple[tuple[Instant, PositiveNumber], ...] = ()
-    """Times [s] and loads over that of the contact, linear between and constant before and
-    after."""
+    load: LoadCourse = ()
+    """Times [s] and loads over that of the contact, or with their unit, linear between and constant
+    before and after; a formula of t, ``"1 + 0.3*sin(t/(2 ms))"``; or the name of a CSV file."""
+    entrainment_speed: SpeedCourse = ()
+    """The same of the mean speed of both surfaces; negative where they move against x."""
+    slide_roll_ratio: RatioCourse = ()
+    """The same of sliding over entrainment speed; left out, that of the contact at all speeds."""
+    sliding_speed: SpeedCourse = ()
+    """The same of u_1 - u_2 in place of the ratio; a plain number is over the entrainment speed of
+    the contact."""
+    radius: RadiusCourse = ()
+    """The same of the reduced radius along x."""
     frames: (
         Annotated[int, Field(ge=0, le=10000)]
         | Annotated[tuple[Instant, ...], Field(max_length=10000)]
@@ -51,22 +60,7 @@ class Transient(Table):
     """Cycles per step before the next relaxation is tried."""
 
     @model_validator(mode="after")
-    def _must_go_on(self) -> Self:
-        times = [time for time, _ in self.load]
-        if any(later <= earlier for earlier, later in pairwise(times)):
-            raise ValueError("load must have times that increase")
-        if any(factor > LARGEST_FACTOR for _, factor in self.load):
-            raise ValueError(
-                f"load is over that of the contact and must stay below {LARGEST_FACTOR:g} times it"
-            )
+    def _slides_once(self) -> Self:
+        if self.slide_roll_ratio and self.sliding_speed:
+            raise ValueError("slide_roll_ratio and sliding_speed state the same: leave out one")
         return self
-
-    def load_at(self, time: float) -> float:
-        """Return the load at ``time`` [s] over that of the contact [-]."""
-        if not self.load:
-            return 1.0
-        after = bisect_right([moment for moment, _ in self.load], time)
-        if after in (0, len(self.load)):
-            return self.load[min(after, len(self.load) - 1)][1]
-        (start, load), (end, next_load) = self.load[after - 1 : after + 1]
-        return load + (time - start) / (end - start) * (next_load - load)

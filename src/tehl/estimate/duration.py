@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tehl.base.errors import InputError
+from tehl.contact.moment import courses_of
 from tehl.contact.transient import Transient
 from tehl.estimate.scaling import ScaledProblem, Scales
 from tehl.roughness.map import Map
@@ -165,8 +166,8 @@ def duration_of(scaled: ScaledProblem) -> float:
         return transient.duration
     moving = (part for part in parts_of(scaled) if part.speed != 0)
     passing = max((part.passing_time(units, transient) for part in moving), default=0.0)
-    loaded = max((time for time, _ in transient.load), default=0.0)
-    return max(passing, loaded, units.half_width_x / units.speed)
+    changing = max((course.end for course in courses_of(scaled.problem).values()), default=0.0)
+    return max(passing, changing, units.half_width_x / units.speed)
 
 
 def whole_passing(scaled: ScaledProblem) -> float:

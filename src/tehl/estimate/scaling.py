@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 
+from tehl.contact.moment import Moment, moment_at
 from tehl.contact.problem import ContactProblem
 from tehl.contact.shape import LINE, Ellipse, Shape
 
@@ -77,6 +78,8 @@ class ScaledProblem:
     problem: ContactProblem
     scales: Scales
     groups: Groups
+    moment: Moment
+    """Load, motion and radius: those of the contact, or of a transient run at its start."""
     flooded_oil: float | None = None
     """rho H in the middle of the same contact fully flooded [-]; None is that of the formula."""
     flooded_error: float = 0.0
@@ -85,7 +88,12 @@ class ScaledProblem:
     @classmethod
     def of(cls, problem: ContactProblem) -> "ScaledProblem":
         """Scale a problem."""
-        return cls(problem=problem, scales=scales(problem), groups=groups(problem))
+        return cls(
+            problem=problem,
+            scales=scales(problem),
+            groups=groups(problem),
+            moment=moment_at(problem, 0.0),
+        )
 
     @property
     def entering(self) -> Groups:

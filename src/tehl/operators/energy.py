@@ -138,8 +138,8 @@ class FilmState:
         scaled = self.film.scaled
         if not self.model.terms.heat:
             return
-        motion = scaled.problem.motion
-        sliding = abs(motion.speed_1 - motion.speed_2)
+        first, second = (speed * scaled.scales.speed for speed in scaled.moment.speeds)
+        sliding = abs(first - second)
         heat = sliding * scaled.scales.hertz_pressure / self.film.flux_unit
         self.solids.rub(heat * stress.T)
         if sheared is not None:
@@ -164,8 +164,9 @@ class FilmState:
 
     def slide(self, part: float) -> None:
         """Set the sliding speed to a part of that of the contact, at the same mean speed."""
-        full = -part * self.film.scaled.problem.slide_roll_ratio
-        self._set_terms(self.model.terms._replace(slide=full, speed=1.0 - 0.5 * full))
+        moment = self.film.scaled.moment
+        full = -part * moment.sliding
+        self._set_terms(self.model.terms._replace(slide=full, speed=moment.speed - 0.5 * full))
 
     def sweep(self, steps: int) -> float:
         """March once; return the largest change of temperature [K].

@@ -13,6 +13,7 @@ without cavitation. Nearer, with the film H in place of the gap, P = 2 lambda r 
 is exact for the second term.
 """
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -148,7 +149,7 @@ def _solve(to_last: Array, diagonal: Array, to_next: Array, source: Array, wet: 
     return f
 
 
-def far_field(grid: Grid, groups: Groups) -> "FarField | UpstreamField":
+def far_field(grid: Grid, groups: Groups, speed: float = 1.0) -> "FarField | UpstreamField":
     """Return the pressure on the edges of a grid and the load outside of it.
 
     Parameters
@@ -157,7 +158,10 @@ def far_field(grid: Grid, groups: Groups) -> "FarField | UpstreamField":
         Its edges.
     groups : Groups
         Shape, and lambda of the oil that enters.
+    speed : float
+        Entrainment speed over that of the contact [-].
     """
+    groups = replace(groups, lambda_bar=speed * groups.lambda_bar)
     return UpstreamField(grid, groups) if groups.shape is LINE else FarField(grid, groups)
 
 

@@ -5,7 +5,7 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 
 
-def gap(grid: Grid, groups: Groups) -> Array:
+def gap(grid: Grid, groups: Groups, curvature: float = 1.0) -> Array:
     """Return the undeformed gap, shape ``grid.shape`` [-].
 
     Parameters
@@ -14,8 +14,12 @@ def gap(grid: Grid, groups: Groups) -> Array:
         Nodes X, Y in Hertz half-widths.
     groups : Groups
         Shape of the contact.
+    curvature : float
+        Along x, over that of the contact [-].
     """
-    return groups.shape.gap(grid.x[None, :], grid.y[:, None])
+    x, y = grid.x[None, :], grid.y[:, None]
+    found = groups.shape.gap(x, y)
+    return found if curvature == 1.0 else found + 0.5 * (curvature - 1.0) * x**2
 
 
 def dry_pressure(grid: Grid, groups: Groups) -> Array:

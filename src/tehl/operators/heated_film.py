@@ -113,14 +113,14 @@ def _film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
     across = scales.film_thickness**2 / conductivity
     along = scales.speed / scales.half_width_x
     w0, w1, w2 = UPSTREAM[min(wedge_order, 2)]
-    slide = -problem.slide_roll_ratio
+    slide = -scaled.moment.sliding
     return Terms(
         peclet=film_peclet(scaled),
         compression=scales.hertz_pressure * along * across,
         brinkman=scales.viscosity * scales.speed**2 / conductivity,
         poiseuille=12.0 / groups.lambda_bar,
         slide=slide,
-        speed=1.0 - 0.5 * slide,
+        speed=scaled.moment.speed - 0.5 * slide,
         over_x=1.0 / grid.dx,
         over_y=1.0 / (groups.ellipticity * grid.dy),
         over_t=0.0,

@@ -4,7 +4,7 @@ Theory in docs/theory/roughness.md and docs/theory/numerics-rough.md.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -270,18 +270,29 @@ class MovingHeights:
         )
         return first, second
 
-    def at(self, time: float) -> tuple[Array, Array]:
-        """Return the heights of both surfaces at ``time`` [s], ``grid.shape`` each [-]."""
-        first, second = (self._one(surface, time) for surface in self.surfaces)
+    def at(self, time: float, moved: Sequence[float] | None = None) -> tuple[Array, Array]:
+        """Return the heights of both surfaces, ``grid.shape`` each [-].
+
+        Parameters
+        ----------
+        time : float
+            Since the start [s].
+        moved : (float, float) or None
+            Distance of each surface since then [a_x]; None where its speed is constant.
+        """
+        ways = [one.speed * time for one in self.surfaces]
+        if moved is not None:
+            ways = [self.widths[0] * one for one in moved]
+        first, second = map(self._one, self.surfaces, ways)
         return first, second
 
-    def _one(self, surface: _Moving, time: float) -> Array:
-        """Return the heights of one surface."""
+    def _one(self, surface: _Moving, way: float) -> Array:
+        """Return the heights of one surface that has moved by ``way`` [m]."""
         total = np.zeros(self.shape)
         for part, fade in surface.parts:
-            height = part.height(self.x, self.y, time, surface.speed) / self.unit
+            height = part.height(self.x, self.y, 1.0, way) / self.unit
             if fade > 0.0 and self.front is not None:
-                body = math.copysign(1.0, surface.speed) * (self.x - surface.speed * time)
+                body = math.copysign(1.0, surface.speed) * (self.x - way)
                 inside = np.clip((-self.front - body) / fade, 0.0, 1.0)
                 height = height * (0.5 - 0.5 * np.cos(math.pi * inside))
             total += height

@@ -3,6 +3,8 @@
 (eps P_x)_x + (eps P_y)_y / kappa^2 - (rho H)_x - (rho H)_t = 0,  x, y, t in a_x, a_y, a_x/u_m.
 """
 
+import math
+
 import numpy as np
 
 from tehl.base.typing import Array
@@ -14,12 +16,16 @@ from tehl.operators.influence import Influence
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
 """Weights of rho H of a node and of its upstream neighbours in the wedge, by its order [1/dx]."""
+WHOLE = 1e-9
+"""Rounding of a number of mesh widths."""
+CUBIC = (-1, 0, 1, 2)
+"""Nodes of the cubic interpolation, upstream of the node before the place."""
 INFLUENCE_NODES = 8
 """Nodes along a line in the influence of one node, as the line relaxation uses it."""
 
 
 def steady_stencil(
-    grid: Grid, groups: Groups, wedge_order: int, *, conserves: bool = False
+    grid: Grid, groups: Groups, wedge_order: int, *, conserves: bool = False, speed: float = 1.0
 ) -> Stencil:
     """Return the weights of the steady operator: central Poiseuille term, upstream wedge.
 
@@ -34,9 +40,11 @@ def steady_stencil(
         last with geometric means of the conductance.
     conserves : bool
         Whether oil is conserved in cavities.
+    speed : float
+        Entrainment speed over that of the contact [-].
     """
     weights = UPSTREAM[min(wedge_order, 2)]
-    w0, w1, w2 = (w / grid.dx for w in weights)
+    w0, w1, w2 = (speed * w / grid.dx for w in weights)
     return Stencil(
         cx=1.0 / grid.dx**2,
         cy=1.0 / (groups.ellipticity * grid.dy) ** 2,
@@ -45,7 +53,7 @@ def steady_stencil(
         w2=w2,
         mirror=int(grid.mirror),
         conserves=STEADILY if conserves else 0,
-        third=1.0 / (3.0 * grid.dx) if wedge_order > 2 else 0.0,
+        third=speed / (3.0 * grid.dx) if wedge_order > 2 else 0.0,
         fore=int(np.searchsorted(grid.x, 0.0)),
     )
 
@@ -99,6 +107,37 @@ def upstream(field: Array, nodes: int) -> Array:
     before = np.arange(-nodes, 0.0)
     shifted[:, :nodes] = field[:, :1] + before * (field[:, 1:2] - field[:, :1])
     return shifted
+
+
+def carried(field: Array, distance: float) -> Array:
+    """Return a field where the film was a distance ago, to fourth order; linear beyond both edges.
+
+    The weights are the same at all nodes, so that the sum over them is conserved.
+
+    Parameters
+    ----------
+    field : Array
+        Nodal values, (ny, nx).
+    distance : float
+        Along x in mesh widths; negative where the film moves against x.
+    """
+    if distance < 0.0:
+        return carried(field[:, ::-1], -distance)[:, ::-1]
+    whole = round(distance)
+    if abs(distance - whole) < WHOLE:
+        return upstream(field, whole) if whole else field.copy()
+    nodes, s = int(distance), distance - int(distance)
+    ghosts = nodes + len(CUBIC) - 2
+    steps = np.arange(-ghosts, 0.0)
+    west = field[:, :1] + steps * (field[:, 1:2] - field[:, :1])
+    wider = np.concatenate([west, field, 2.0 * field[:, -1:] - field[:, -2:-1]], axis=1)
+    found = np.zeros_like(field)
+    for place in CUBIC:
+        others = [one for one in CUBIC if one != place]
+        weight = math.prod((s - one) / (place - one) for one in others)
+        first = ghosts - nodes - place
+        found += weight * wider[:, first : first + field.shape[1]]
+    return found
 
 
 def steady_wedge(mass: Array, spacing: float, order: int) -> Array:

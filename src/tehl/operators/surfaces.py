@@ -96,10 +96,10 @@ def sides(scaled: ScaledProblem, heat: FilmEnergy) -> tuple[Side, Side]:
         With the bulk temperatures [K] and the form of the source.
     """
     problem, scales = scaled.problem, scaled.scales
-    motion = problem.motion
+    first, second = (scales.speed * speed for speed in scaled.moment.speeds)
     return (
-        _side(problem.surface_1.material, heat.bulk_1, motion.speed_1, heat, scales),
-        _side(problem.surface_2.material, heat.bulk_2, motion.speed_2, heat, scales),
+        _side(problem.surface_1.material, heat.bulk_1, first, heat, scales),
+        _side(problem.surface_2.material, heat.bulk_2, second, heat, scales),
     )
 
 

@@ -245,7 +245,8 @@ def smooth_start(run: TransientSolution) -> Solution | None:
     None if the run did not start from smooth surfaces under the load of the contact.
     """
     transient, problem = run.start.problem.transient, run.start.problem
-    starts = transient is not None and transient.start == "smooth" and transient.load_at(0.0) == 1.0
+    starts = transient is not None and transient.start == "smooth"
+    starts = starts and run.start.load == run.start.scales.load
     if not starts or not problem.is_rough:
         return None
     return replace(run.start, problem=smooth_reference(problem))

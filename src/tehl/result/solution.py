@@ -8,6 +8,7 @@ from typing import Any, Generic, Literal, Self, TypeVar, overload
 
 from tehl.base.errors import TehlError
 from tehl.base.typing import Array
+from tehl.contact.moment import moment_at
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import Groups, ScaledProblem, Scales
@@ -310,8 +311,7 @@ class Solution:
     @property
     def load(self) -> float:
         """Return the load of the film; at the start of a transient run that of t = 0 [N]."""
-        transient = self.problem.transient
-        return self.scales.load * (1.0 if transient is None else transient.load_at(0.0))
+        return self.scales.load * moment_at(self.problem, 0.0).load
 
     @property
     def solved_problem(self) -> ContactProblem:
@@ -321,7 +321,13 @@ class Solution:
     @property
     def scaled_problem(self) -> ScaledProblem:
         """The problem with its scales and dimensionless groups."""
-        scaled = ScaledProblem(problem=self.solved_problem, scales=self.scales, groups=self.groups)
+        problem = self.solved_problem
+        scaled = ScaledProblem(
+            problem=problem,
+            scales=self.scales,
+            groups=self.groups,
+            moment=moment_at(problem, 0.0),
+        )
         known = self.supplied
         if known is None:
             return scaled

@@ -189,7 +189,6 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
     monitor: Monitor,
     rough: bool,
     guess: Solution | None = None,
-    load: float = 1.0,
     flooded: Flooded | None = None,
 ) -> tuple[Attempt, Solution]:
     """Try the strategies; return the best attempt at the steady film and its result.
@@ -200,8 +199,6 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
         As in `solve`.
     rough : bool
         Whether the surfaces have their roughness, at time zero; else they are smooth.
-    load : float
-        Load that the film carries, over that of the contact [-].
     flooded : Flooded or None
         The flooded contact; None computes it if oil is supplied.
     """
@@ -229,7 +226,7 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
             plan = plan.model_copy(update={"wedge_order": strategy.wedge_order})
             plan = goal.fitting(plan.on_points(grid.nx, grid.nx))
             grid = finest_grid(scaled, plan)
-        hierarchy = Hierarchy.on(grid, scaled, plan, strategy.first_relaxation, load)
+        hierarchy = Hierarchy.on(grid, scaled, plan, strategy.first_relaxation)
         run = FilmSolver(
             hierarchy, strategy, heights=heights, goal=goal, monitor=history, guess=start
         )

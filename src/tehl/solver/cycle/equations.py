@@ -7,11 +7,12 @@
 (docs/theory/model.md), with P >= 0 and complementarity where the film is cavitated.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.contact.moment import Moment
 from tehl.contact.options import Options
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
@@ -70,6 +71,22 @@ class Equations:
         """Weights on the coarser grids of a cycle: a wedge of second order at most."""
         return self.stencil._replace(third=0.0)
 
+    def at(self, moment: Moment, scaled: ScaledProblem) -> "Equations":
+        """Return the equations with load, gap and pressure on the edges at another moment.
+
+        Parameters
+        ----------
+        moment, scaled : Moment, ScaledProblem
+            Load, motion and radius; and the contact.
+        """
+        target = moment.load * self.groups.shape.load
+        if (moment.speed, moment.curvature) == (scaled.moment.speed, scaled.moment.curvature):
+            return replace(self, target=target)
+        far = self.far_field and far_field(self.grid, scaled.entering, moment.speed)
+        return replace(
+            self, target=target, gap=gap(self.grid, self.groups, moment.curvature), far_field=far
+        )
+
     @classmethod
     def on(
         cls,
@@ -77,7 +94,6 @@ class Equations:
         scaled: ScaledProblem,
         flow: FlowTable,
         options: Options,
-        load: float = 1.0,
     ) -> "Equations":
         """Discretise a contact.
 
@@ -89,26 +105,28 @@ class Equations:
             Mobility and density of the lubricant, the same on all grids.
         options : Options
             Order of the wedge, and method of the deflection.
-        load : float
-            Load that the film carries, over that of the contact [-].
         """
-        groups, oil = scaled.groups, entering_oil(scaled)
+        groups, oil, moment = scaled.groups, entering_oil(scaled), scaled.moment
         conserves = scaled.problem.conserves_oil
         starved, film = oil is not None, scaled.problem.contact_film
         return cls(
             grid=grid,
             groups=groups,
             flow=flow,
-            stencil=steady_stencil(grid, groups, options.order, conserves=conserves),
+            stencil=steady_stencil(
+                grid, groups, options.order, conserves=conserves, speed=moment.speed
+            ),
             influence=influence_of(grid, groups),
             deformation=choose(
                 options.deformation, grid, groups, exact=options.accuracy == "tight"
             ),
             load=Load(grid),
-            target=load * groups.shape.load,
-            gap=gap(grid, groups),
+            target=moment.load * groups.shape.load,
+            gap=gap(grid, groups, moment.curvature),
             far_field=(
-                far_field(grid, scaled.entering) if options.has_far_field and not starved else None
+                far_field(grid, scaled.entering, moment.speed)
+                if options.has_far_field and not starved
+                else None
             ),
             layer=_layer(scaled, oil, grid),
             asperities=asperity_table(scaled),

@@ -131,8 +131,7 @@ class CoarsestSolver:
 class Hierarchy:
     """The levels of a contact, coarsest first, and the solver of the coarsest.
 
-    ``expected_film`` is the central film by formula [-], and ``load`` that of the film over that of
-    the contact [-].
+    ``expected_film`` is the central film by formula [-].
     """
 
     scaled: ScaledProblem
@@ -140,7 +139,6 @@ class Hierarchy:
     levels: list[Level]
     coarsest: CoarsestSolver
     expected_film: float
-    load: float = 1.0
 
     @classmethod
     def on(
@@ -149,7 +147,6 @@ class Hierarchy:
         scaled: ScaledProblem,
         options: Options,
         relaxation: Relaxation,
-        load: float = 1.0,
     ) -> "Hierarchy":
         """Discretise a contact on ``finest`` and its coarser grids.
 
@@ -159,8 +156,6 @@ class Hierarchy:
             The grid of the result, and the contact.
         options, relaxation : Options, Relaxation
             Wedge order and deformation; settings of the smoother.
-        load : float
-            Load that the film carries, over that of the contact [-].
         """
         flow, film = flow_table(scaled), shared_load(scaled).gap
         grids = halved_grids(finest)
@@ -171,13 +166,13 @@ class Hierarchy:
             widest, dense = LINE_COARSEST * widest, LINE_DENSE
         while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= dense:
             del grids[0]
-        levels = [Level(Equations.on(g, scaled, flow, options, load), relaxation) for g in grids]
-        return cls(scaled, options, levels, CoarsestSolver(levels[0]), film, load)
+        levels = [Level(Equations.on(g, scaled, flow, options), relaxation) for g in grids]
+        return cls(scaled, options, levels, CoarsestSolver(levels[0]), film)
 
     def refine(self, relaxation: Relaxation) -> None:
         """Append a level of half the mesh width."""
         grid, flow = self.finest.grid.finer(), self.finest.equations.flow
-        equations = Equations.on(grid, self.scaled, flow, self.options, self.load)
+        equations = Equations.on(grid, self.scaled, flow, self.options)
         self.levels.append(Level(equations, relaxation))
 
     @property

@@ -10,8 +10,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.kernels import properties, reynolds
-from tehl.operators.far_field import FarField
-from tehl.operators.upstream import UpstreamField
+from tehl.operators.far_field import Edges
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Relaxation, make_smoother
 from tehl.solver.physics.cavity import cavity_of
@@ -55,7 +54,7 @@ class Level:
         return self.equations.grid
 
     @property
-    def far_field(self) -> FarField | UpstreamField | None:
+    def far_field(self) -> Edges | None:
         """Pressure on the edges and load outside of the finest level; None if it is zero."""
         return self.equations.far_field if self.is_finest else None
 

@@ -6,6 +6,7 @@ from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.operators.transfer import refine
 from tehl.result.solution import Solution
+from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.level import Level
 
 LEAST_GUESS_GAIN = 0.1
@@ -23,7 +24,7 @@ def pose_problem(level: Level) -> None:
     level.smoother.frozen[:] = 0  # the finest grid decides where the film ends
 
 
-def pose_step(level: Level, history: Array, heights: Array, load: float) -> None:
+def pose_step(level: Level, history: Array, heights: Array, equations: Equations) -> None:
     """Set the right-hand sides of a time step: f contains the history.
 
     Parameters
@@ -34,11 +35,11 @@ def pose_step(level: Level, history: Array, heights: Array, load: float) -> None
         Contribution of previous films to wedge and squeeze [-].
     heights : array of ``grid.shape``
         Heights of both surfaces at the new time [-].
-    load : float
-        Load over that of the contact [-].
+    equations : Equations
+        With the load, the gap and the pressure on the edges at the new time.
     """
-    level.sources.history, level.heights = history, heights
-    level.sources.load = load * level.equations.groups.shape.load
+    level.sources.history, level.heights, level.equations = history, heights, equations
+    level.sources.load = equations.target
     level.is_finest = True
     level.apply_heights(1.0)
     level.smoother.frozen[:] = 0

@@ -58,7 +58,7 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
         return found
     if state is not None and state.grid != level.grid:
         return found
-    if scaled.problem.slide_roll_ratio:
+    if scaled.moment.sliding:
         found["traction_mid_film"] = mid_film_traction(level, scaled, state)
     if state is not None and state.model.terms.heat:
         powers = asdict(heat_balance(state))

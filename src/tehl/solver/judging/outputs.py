@@ -59,13 +59,13 @@ def newtonian_sliding(level: Level, scaled: ScaledProblem) -> Array:
     scaled : ScaledProblem
         With the slide-roll ratio and the viscosity at the inlet temperature.
     """
-    problem, scales = scaled.problem, scaled.scales
-    if problem.slide_roll_ratio == 0:
+    sliding, scales = scaled.moment.sliding, scaled.scales
+    if sliding == 0:
         return np.zeros(level.grid.shape)
     film = np.maximum(level.film.h, level.equations.floor)
-    lubricant = problem.lubricant
+    lubricant = scaled.problem.lubricant
     eta = lubricant.viscosity.viscosity(scales.hertz_pressure * level.film.p, scales.temperature)
-    return np.asarray(-problem.slide_roll_ratio * eta / scales.viscosity / film)
+    return np.asarray(-sliding * eta / scales.viscosity / film)
 
 
 def film_shear(state: FilmState) -> FilmShear:

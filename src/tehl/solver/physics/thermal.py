@@ -72,8 +72,7 @@ class Coupling:
         self.scaled, is_coupled = scaled, scaled.problem.is_coupled
         self.film = HeatedFilm(scaled) if is_coupled else None
         self.wedge_order = options.order
-        motion = scaled.problem.motion
-        counter_moving = min(motion.speed_1, motion.speed_2) <= 0.0
+        counter_moving = min(scaled.moment.speeds) <= 0.0
         # without counter-moving surfaces the backflow of the coarser grids is accurate enough
         self.thorough = options.accuracy == "tight" or counter_moving
         self.sweeps_left = RAMP if slide_in_steps else 0

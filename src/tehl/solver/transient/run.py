@@ -8,6 +8,7 @@ import numpy as np
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.base.wording import grid_size
+from tehl.contact.moment import courses_of
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.transient import Transient
@@ -25,7 +26,8 @@ from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Re
 from tehl.solver.judging.measures import is_resolved, mid_film_stress, mid_film_traction
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import Attempt, finest_grid, try_strategies
-from tehl.solver.transient.checks import check_load, check_stride, check_waves
+from tehl.solver.transient.checks import check_peaks, check_stride, check_waves
+from tehl.solver.transient.schedule import schedule_of
 from tehl.solver.transient.snapshot import ANEW, Record, Snapshot, carried, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
 
@@ -105,7 +107,7 @@ class Run:
         settings: Sequence[Relaxation] = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
         self.stepper = Stepper(attempt.run, transient, settings)
         self.record = Record()
-        self._note(0, self.heights.at(0.0), None)
+        self._note(0, self.heights.at(0.0, self._moved(0)), None)
 
     def _pose(self, grid: Grid, *, smooth: bool) -> None:
         """Set heights and time steps on ``grid``, and check them.
@@ -120,7 +122,8 @@ class Run:
         check_waves(self.heights, grid, transient.stride)
         if (fault := misplaced(self.scaled, self.steps * self.seconds)) is not None:
             raise InputError(fault)
-        check_load(transient, self.seconds)
+        check_peaks(courses_of(self.problem), self.seconds)
+        self.schedule = schedule_of(self.scaled, transient.stride * grid.dx, self.steps)
         self.kept = kept_steps(transient, self.steps, self.seconds)
 
     @property
@@ -142,10 +145,13 @@ class Run:
         """
         for step in range(len(self.record.rows), self.steps + 1):
             time_now = step * self.seconds
-            heights = self.heights.at(time_now)
+            heights = self.heights.at(time_now, self._moved(step))
             try:
-                load = self.transient.load_at(time_now)
-                end = self.stepper.step(heights[0] + heights[1], load)
+                end = self.stepper.step(
+                    heights[0] + heights[1],
+                    self.schedule.moments[step],
+                    self.schedule.passed(step),
+                )
             except StepError as error:
                 return self.step_not_settled(error, time_now)
             self._note(step, heights, end)
@@ -156,15 +162,21 @@ class Run:
                 keep(self.snapshot())
         return Status(kind="converged")
 
+    def _moved(self, step: int) -> Array | None:
+        """Return the distances of both surfaces until a step [a_x]; None at constant speeds."""
+        travelled = self.schedule.travelled
+        return None if travelled is None else travelled[1:, step]
+
     def _note(self, step: int, heights: tuple[Array, Array], end: StepEnd | None) -> None:
         """Record a step; at time zero it has no cycles."""
         time_now = step * self.seconds
-        load = self.transient.load_at(time_now)
+        moment = self.schedule.moments[step]
+        scaled, load = replace(self.scaled, moment=moment), moment.load
         numbers = {
             "time": time_now,
             "load": load,
             "traction": mid_film_traction(
-                self.level, self.scaled, self.stepper.solver.coupling.state, load
+                self.level, scaled, self.stepper.solver.coupling.state, load
             ),
             "temperature_rise": self.stepper.solver.coupling.temperature_rise(),
             "cycles": end.cycles if end else 0,
@@ -330,8 +342,7 @@ def _steady_start(
     tight = options.model_copy(
         update={"accuracy": "tight", "tolerance": min(options.tolerance, START_TOLERANCE)}
     )
-    load = problem.transient.load_at(0.0) if problem.transient else 1.0
-    attempt, result = try_strategies(problem, tight, monitor=monitor, rough=rough, load=load)
+    attempt, result = try_strategies(problem, tight, monitor=monitor, rough=rough)
     result = result.but(options=options)
     if not result.status.converged:
         message = f"The steady film at time zero did not converge: {result.status.message}"

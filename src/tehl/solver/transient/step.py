@@ -19,8 +19,10 @@ from typing import Literal
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.contact.moment import Moment
 from tehl.contact.transient import Transient
-from tehl.operators.reynolds import steady_flux, steady_wedge, step_stencil, upstream
+from tehl.operators.reynolds import carried, steady_flux, steady_wedge, step_stencil, upstream
+from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
@@ -87,6 +89,7 @@ class Stepper:
         for one in solver.levels:
             stencil = step_stencil(one.stencil, self.time_step)
             one.equations = replace(one.equations, stencil=stencil)
+        self.equations = level.equations  # with load and gap of the start
         solver.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
         solver.coupling.begin_transient(solver.levels, self.time_step)
         self.method: Callable[[], None] = partial(
@@ -102,24 +105,29 @@ class Stepper:
         self.setting = 0
         self.choose(0)
 
-    def step(self, heights: Array, load: float) -> StepEnd:
+    def step(
+        self, heights: Array, moment: Moment, passed: tuple[float, float] | None = None
+    ) -> StepEnd:
         """Advance by one step.
 
         Parameters
         ----------
         heights : Array
             Of both surfaces together [-], (ny, nx).
-        load : float
-            Over that of the contact [-].
+        moment : Moment
+            Load, motion and radius at the new time.
+        passed : (float, float) or None
+            Distances of the mean motion in this step and in the last two [a_x]; None where it
+            moves as the contact states.
 
         Raises
         ------
         StepError
             When no relaxation converges; pressure and film are those of the last attempt.
         """
-        level, history = self.solver.finest, self._history()
+        level, history = self.solver.finest, self._history(moment, passed)
         start = level.state()
-        first = self.setting
+        first, equations = self.setting, self._equations(moment)
         for number in range(first, len(self.settings)):
             self.choose(number)
             if number > first:  # retry: first restore the film from which stresses follow
@@ -128,7 +136,7 @@ class Stepper:
                 self.solver.coupling.revert(self.solver.levels)
             elif self.touching is None:
                 level.set_pressure(self.predictor.onward())
-            pose_step(level, history + self.squeeze.onward(), heights, load)
+            pose_step(level, history + self.squeeze.onward(), heights, equations)
             try:
                 end = self._solve(self.settings[number].name)
             except ArithmeticError as error:  # also from a kernel, if the film is NaN
@@ -144,16 +152,24 @@ class Stepper:
             return end
         raise StepError("stalled", np.inf)
 
-    def _history(self) -> Array:
+    def _history(self, moment: Moment, passed: tuple[float, float] | None) -> Array:
         """Return the known terms of wedge and squeeze, (ny, nx).
 
         The mass of the steady film keeps its own wedge, whatever the stride; only the difference to
         it is differentiated along the motion.
         """
-        stride, steady = self.transient.stride, self.steady
-        last = 2.0 * upstream(self.now - steady, stride)
-        before = 0.5 * upstream(self.before - steady, 2 * stride)
-        return (last - before + 1.5 * steady) / self.time_step - self.wedge
+        steady, wedge = self.steady, self.wedge
+        steps = (float(self.transient.stride), 2.0 * self.transient.stride)
+        if passed is not None:
+            spacing = self.solver.finest.grid.dx
+            steps, wedge = (passed[0] / spacing, passed[1] / spacing), moment.speed * wedge
+        last = 2.0 * carried(self.now - steady, steps[0])
+        before = 0.5 * carried(self.before - steady, steps[1])
+        return (last - before + 1.5 * steady) / self.time_step - wedge
+
+    def _equations(self, moment: Moment) -> Equations:
+        """Return the equations of the finest level at a moment."""
+        return self.equations.at(moment, self.solver.hierarchy.scaled)
 
     def _held(self) -> Array:
         """Return the oil at each node; on the edges where it enters that of the steady film."""

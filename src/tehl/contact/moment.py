@@ -1,0 +1,72 @@
+"""Load, motion and radius of a contact at one moment, over those that it states."""
+
+from dataclasses import dataclass
+
+from tehl.base.units import Force, ForcePerLength, Length, Number, quantity
+from tehl.contact.course import SIGNED_SPEED, Course, Stated, course_of
+from tehl.contact.point_contact import PointContact
+from tehl.contact.transient import COURSES
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Moment:
+    """What changes in time, over the load, entrainment speed and radius of ``[contact]``."""
+
+    load: float = 1.0
+    speed: float = 1.0
+    """Entrainment speed; negative against x."""
+    sliding: float = 0.0
+    """u_1 - u_2, over the entrainment speed of ``[contact]``."""
+    curvature: float = 1.0
+    """1/R_x."""
+
+    @property
+    def speeds(self) -> tuple[float, float]:
+        """Speeds of both surfaces over the entrainment speed of ``[contact]``."""
+        return self.speed + 0.5 * self.sliding, self.speed - 0.5 * self.sliding
+
+
+def moment_at(problem: PointContact, time: float) -> Moment:
+    """Return the moment of a contact.
+
+    Parameters
+    ----------
+    problem : PointContact
+        Without ``transient`` nothing changes.
+    time : float
+        Since the start [s].
+    """
+    courses = courses_of(problem)
+    speed = courses["entrainment_speed"].at(time) if "entrainment_speed" in courses else 1.0
+    sliding = problem.slide_roll_ratio * speed
+    if "slide_roll_ratio" in courses:
+        sliding = courses["slide_roll_ratio"].at(time) * speed
+    elif "sliding_speed" in courses:
+        sliding = courses["sliding_speed"].at(time)
+    return Moment(
+        load=courses["load"].at(time) if "load" in courses else 1.0,
+        speed=speed,
+        sliding=sliding,
+        curvature=1.0 / courses["radius"].at(time) if "radius" in courses else 1.0,
+    )
+
+
+def courses_of(problem: PointContact) -> dict[str, Course]:
+    """Return what changes in time, by key of ``[transient]``."""
+    transient = problem.transient
+    if transient is None:
+        return {}
+    by_length = problem.contact.is_line
+    kinds = {
+        "load": (quantity(ForcePerLength if by_length else Force), problem.load),
+        "entrainment_speed": (SIGNED_SPEED, problem.entrainment_speed),
+        "slide_roll_ratio": (quantity(Number), 1.0),
+        "sliding_speed": (SIGNED_SPEED, problem.entrainment_speed),
+        "radius": (quantity(Length), problem.radius_x),
+    }
+    stated: dict[str, Stated] = {key: getattr(transient, key) for key in kinds}
+    return {
+        key: course_of(stated[key], kind, reference)
+        for key, (kind, reference) in kinds.items()
+        if stated[key]
+    }

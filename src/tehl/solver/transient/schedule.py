@@ -1,0 +1,106 @@
+"""Load, motion and radius at each time step, and the distances travelled until then."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.course import LARGEST_FACTOR
+from tehl.contact.moment import Moment, courses_of, moment_at
+from tehl.estimate.scaling import ScaledProblem
+
+GAUSS_NODES = 4
+"""Nodes of Gauss per step for the distances: their error is of eighth order in the step."""
+SIGNED = ("entrainment_speed", "slide_roll_ratio", "sliding_speed")
+"""Keys of the motion, whose values may be negative."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Schedule:
+    """What a run knows of its steps before it begins."""
+
+    step: float
+    """Time step [a_x / u_m of the contact]."""
+    moments: tuple[Moment, ...]
+    """At the end of each step, that of the start first."""
+    travelled: Array | None
+    """Distances of the mean motion and of both surfaces since the start, (3, steps + 1) [a_x]; None
+    where all move as the contact states."""
+
+    @property
+    def reverses(self) -> bool:
+        """Whether the entrainment turns."""
+        return min(moment.speed for moment in self.moments) < 0.0
+
+    def passed(self, step: int) -> tuple[float, float] | None:
+        """Return the distances of the mean motion in the last step and in the last two [a_x].
+
+        Before the start it moves as at the start; None if it always moves as the contact states.
+        """
+        if self.travelled is None:
+            return None
+        mean, before = self.travelled[0], -self.moments[0].speed * self.step
+        last, farther = (mean[at] if at >= 0 else before for at in (step - 1, step - 2))
+        return float(mean[step] - last), float(mean[step] - farther)
+
+
+def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
+    """Return the schedule of a run.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        A transient problem.
+    step, number : float, int
+        Time step [a_x / u_m], and number of steps.
+
+    Raises
+    ------
+    InputError
+        If a value is not possible; the message has its key and time.
+    """
+    problem, courses, unit = scaled.problem, courses_of(scaled.problem), _time_unit(scaled)
+    for key, course in courses.items():
+        for time in (n * step * unit for n in range(number + 1)):
+            _check(key, course.at(time), time)
+    moments = tuple(moment_at(problem, n * step * unit) for n in range(number + 1))
+    if not moments[0].speed > 0.0:
+        raise InputError(
+            f"transient.entrainment_speed = {moments[0].speed:g} at 0 s: a run starts from a "
+            "steady film, so its first speed must be positive"
+        )
+    stated = moment_at(problem.model_copy(update={"transient": None}), 0.0)
+    constant = all(
+        (one.speed, one.sliding) == (stated.speed, stated.sliding) for one in moments
+    )
+    travelled = None if constant else _travelled(scaled, step, number)
+    return Schedule(step=step, moments=moments, travelled=travelled)
+
+
+def _check(key: str, value: float, time: float) -> None:
+    """Check a value of a formula or table, over that of the contact."""
+    is_possible = math.isfinite(value) and (key in SIGNED or value > 0.0)
+    if not (is_possible and abs(value) <= LARGEST_FACTOR):
+        what = "finite" if key in SIGNED else "positive"
+        raise InputError(
+            f"transient.{key} = {value:g} at {time:.4g} s: must be {what} and at most "
+            f"{LARGEST_FACTOR:g} times that of the contact"
+        )
+
+
+def _travelled(scaled: ScaledProblem, step: float, number: int) -> Array:
+    """Return the distances of `Schedule.travelled`."""
+    nodes, weights = np.polynomial.legendre.leggauss(GAUSS_NODES)
+    unit, gained = _time_unit(scaled), np.zeros((3, number + 1))
+    for n in range(number):
+        for place, weight in zip(0.5 * (nodes + 1.0), 0.5 * weights, strict=True):
+            moment = moment_at(scaled.problem, (n + place) * step * unit)
+            gained[:, n + 1] += weight * step * np.array([moment.speed, *moment.speeds])
+    return np.asarray(np.cumsum(gained, axis=1))
+
+
+def _time_unit(scaled: ScaledProblem) -> float:
+    """Return a_x / u_m [s]."""
+    return scaled.scales.half_width_x / scaled.scales.speed
