@@ -10,7 +10,7 @@ from tehl.estimate.duration import duration_of, misplaced
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.operators.heights import MovingHeights
-from tehl.solver.transient.checks import check_load, check_waves
+from tehl.solver.transient.checks import check_peaks, check_waves
 from tehl.solver.transient.snapshot import kept_steps
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.test_transient import OPTIONS, in_time, wave
@@ -149,7 +149,7 @@ def test_a_load_pulse_with_a_flat_top_between_two_steps_is_rejected_too():
     with pytest.raises(InputError, match=r"transient\.load = 1\.5 at .* do not resolve it"):
         solve_transient(in_time(1.0, transient={"load": pulse}), OPTIONS)
     stays = [*pulse[:3], (0.2, 1.5)]  # a jump that the steps resolve
-    check_load(Transient(load=stays), step)
+    check_peaks(Transient(load=stays), step)
 
 
 def test_a_random_surface_loses_the_waves_that_long_steps_would_alias():

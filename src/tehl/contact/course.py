@@ -101,7 +101,9 @@ def _reader(*kinds: Quantity, signed: bool = False) -> BeforeValidator:
                 'must be pairs of a time and a value, [["0 s", 1.0], ["1 ms", 1.2]], a formula '
                 f'of t such as "{NUMBERS_IN_TIME.example}", or the name of a CSV file'
             )
-        rows = tuple((quantity(Instant).parse(row[0]), _value(row[1], kinds, plain)) for row in value)
+        rows = tuple(
+            (quantity(Instant).parse(row[0]), _value(row[1], kinds, plain)) for row in value
+        )
         if any(later <= earlier for (earlier, _), (later, _) in pairwise(rows)):
             raise ValueError(f"{key} must have times that increase")
         if any(not isinstance(one, str) and abs(one) > LARGEST_FACTOR for _, one in rows):

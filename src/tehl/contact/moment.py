@@ -5,7 +5,9 @@ from dataclasses import dataclass
 from tehl.base.units import Force, ForcePerLength, Length, Number, quantity
 from tehl.contact.course import SIGNED_SPEED, Course, Stated, course_of
 from tehl.contact.point_contact import PointContact
-from tehl.contact.transient import COURSES
+
+SAMPLES = 200
+"""Intervals in which a run is sampled before it begins."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -49,6 +51,19 @@ def moment_at(problem: PointContact, time: float) -> Moment:
         sliding=sliding,
         curvature=1.0 / courses["radius"].at(time) if "radius" in courses else 1.0,
     )
+
+
+def moments_of(problem: PointContact, duration: float) -> list[Moment]:
+    """Return the moments of a run at `SAMPLES` times.
+
+    Parameters
+    ----------
+    problem : PointContact
+        With a ``transient`` table.
+    duration : float
+        Of the run [s].
+    """
+    return [moment_at(problem, duration * n / SAMPLES) for n in range(SAMPLES + 1)]
 
 
 def courses_of(problem: PointContact) -> dict[str, Course]:

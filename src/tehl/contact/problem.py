@@ -227,6 +227,12 @@ def check_transient(problem: PointContact) -> None:
             'thermal.sources = "full" is for steady films: in a transient run the surfaces are '
             "heated by line sources that move along with them"
         )
+    varied = [key for key in COURSES[1:] if getattr(transient, key)]
+    if problem.is_coupled and varied:
+        raise ValueError(
+            f"transient.{varied[0]} is for isothermal Newtonian films: heat and shear thinning "
+            "would need the history of surfaces that change their speed"
+        )
     for key in SURFACES if thermal is not None else ():
         speed = problem.motion.speed_1 if key == "surface_1" else problem.motion.speed_2
         if not speed * transient.stride >= 0.5 * problem.entrainment_speed * (1.0 - 1e-9):

@@ -8,7 +8,6 @@ from tehl.base.table import Table
 from tehl.base.units import Instant, PositiveNumber, Time
 from tehl.contact.course import LoadCourse, RadiusCourse, RatioCourse, SpeedCourse
 
-
 COURSES = ("load", "entrainment_speed", "slide_roll_ratio", "sliding_speed", "radius")
 """Keys of what changes in time."""
 

@@ -4,9 +4,11 @@ import math
 from dataclasses import replace
 
 from tehl.base.errors import InputError
+from tehl.contact.moment import courses_of, moments_of
 from tehl.contact.options import LINE_WIDTH, USUAL_PLAIN_ERROR, Domain, Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.shape import LINE
+from tehl.estimate.duration import duration_of
 from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film, moes_film_unit
 from tehl.estimate.line import (
@@ -390,7 +392,21 @@ def domain_of(scaled: ScaledProblem, options: Options) -> Domain:
     """
     if isinstance(options.domain, Domain):
         return options.domain
-    return chosen_domain(scaled, error_of_domain(scaled, options))
+    return _in_time(scaled, chosen_domain(scaled, error_of_domain(scaled, options)))
+
+
+def _in_time(scaled: ScaledProblem, domain: Domain) -> Domain:
+    """Return a domain of all moments of a run whose radius changes, or whose entrainment turns."""
+    if not {"radius", "entrainment_speed"} & set(courses_of(scaled.problem)):
+        return domain
+    moments = moments_of(scaled.problem, duration_of(scaled))
+    power = 0.5 if scaled.groups.shape is LINE else 1.0 / 3.0
+    wider = max(1.0, *((one.load / one.curvature) ** power for one in moments))
+    inlet, outlet = (wider * edge for edge in domain.x)
+    if min(one.speed for one in moments) < 0.0:
+        outlet = max(-inlet, outlet)
+    y = domain.y if scaled.groups.shape is LINE else tuple(wider * edge for edge in domain.y)
+    return Domain.model_construct(x=(-outlet if outlet > -inlet else inlet, outlet), y=y)
 
 
 def error_of_domain(scaled: ScaledProblem, options: Options) -> float:

@@ -57,6 +57,13 @@ class Grid:
         rows = slice(0 if self.mirror or self.ny == 1 else 1, max(self.shape[0] - 1, 1))
         return rows, slice(1, self.nx - 1)
 
+    @property
+    def edge_rows(self) -> tuple[int, ...]:
+        """Stored rows on side edges, where nothing is solved; a line contact has none."""
+        if self.ny == 1:
+            return ()
+        return (-1,) if self.mirror else (0, -1)
+
     def unfold(self, field: Array) -> Array:
         """Return ``field`` on the full domain, (ny, nx)."""
         return np.concatenate([field[:0:-1], field]) if self.mirror else field.copy()

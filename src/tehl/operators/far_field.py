@@ -15,7 +15,7 @@ is exact for the second term.
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from scipy.linalg import solve_banded
@@ -149,7 +149,7 @@ def _solve(to_last: Array, diagonal: Array, to_next: Array, source: Array, wet: 
     return f
 
 
-def far_field(grid: Grid, groups: Groups, speed: float = 1.0) -> "FarField | UpstreamField":
+def far_field(grid: Grid, groups: Groups, speed: float = 1.0) -> "Edges":
     """Return the pressure on the edges of a grid and the load outside of it.
 
     Parameters
@@ -161,8 +161,37 @@ def far_field(grid: Grid, groups: Groups, speed: float = 1.0) -> "FarField | Ups
     speed : float
         Entrainment speed over that of the contact [-].
     """
+    if speed < 0.0:
+        x = (-grid.domain.x[1], -grid.domain.x[0])
+        mirrored = replace(grid, domain=grid.domain.model_copy(update={"x": x}))
+        return AgainstX(far_field(mirrored, groups, -speed))
     groups = replace(groups, lambda_bar=speed * groups.lambda_bar)
     return UpstreamField(grid, groups) if groups.shape is LINE else FarField(grid, groups)
+
+
+class Edges(Protocol):
+    """What an equation needs of the oil outside of its grid."""
+
+    def set_edges(self, pressure: Array, film: Array) -> None:
+        """Set the pressure on the edges for a film, (ny, nx)."""
+
+    def load(self, film: Array, gap: Array) -> float:
+        """Return the integral of P outside the grid [-], for film and undeformed gap."""
+
+
+class AgainstX:
+    """The oil outside where the film moves against x: the mirror image of another."""
+
+    def __init__(self, mirrored: Edges) -> None:
+        self.mirrored = mirrored
+
+    def set_edges(self, pressure: Array, film: Array) -> None:
+        """Set the pressure on the edges for a film, (ny, nx)."""
+        self.mirrored.set_edges(pressure[:, ::-1], film[:, ::-1])
+
+    def load(self, film: Array, gap: Array) -> float:
+        """Return the integral of P outside the grid [-], for film and undeformed gap."""
+        return self.mirrored.load(film[:, ::-1], gap[:, ::-1])
 
 
 class FarField:

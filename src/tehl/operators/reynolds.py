@@ -16,7 +16,7 @@ from tehl.operators.influence import Influence
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
 """Weights of rho H of a node and of its upstream neighbours in the wedge, by its order [1/dx]."""
-WHOLE = 1e-9
+NODE_ROUNDING = 1e-9
 """Rounding of a number of mesh widths."""
 CUBIC = (-1, 0, 1, 2)
 """Nodes of the cubic interpolation, upstream of the node before the place."""
@@ -109,8 +109,8 @@ def upstream(field: Array, nodes: int) -> Array:
     return shifted
 
 
-def carried(field: Array, distance: float) -> Array:
-    """Return a field where the film was a distance ago, to fourth order; linear beyond both edges.
+def carried(field: Array, distance: float, *, limited: bool = False) -> Array:
+    """Return a field where the film was a distance ago; linear beyond both edges.
 
     The weights are the same at all nodes, so that the sum over them is conserved.
 
@@ -120,17 +120,30 @@ def carried(field: Array, distance: float) -> Array:
         Nodal values, (ny, nx).
     distance : float
         Along x in mesh widths; negative where the film moves against x.
+    limited : bool
+        Whether fronts of oil stay monotone, at second order; else by cubic interpolation.
     """
     if distance < 0.0:
-        return carried(field[:, ::-1], -distance)[:, ::-1]
+        return carried(field[:, ::-1], -distance, limited=limited)[:, ::-1]
     whole = round(distance)
-    if abs(distance - whole) < WHOLE:
+    if abs(distance - whole) < NODE_ROUNDING:
         return upstream(field, whole) if whole else field.copy()
     nodes, s = int(distance), distance - int(distance)
-    ghosts = nodes + len(CUBIC) - 2
+    ghosts = nodes + len(CUBIC) - 1
     steps = np.arange(-ghosts, 0.0)
     west = field[:, :1] + steps * (field[:, 1:2] - field[:, :1])
     wider = np.concatenate([west, field, 2.0 * field[:, -1:] - field[:, -2:-1]], axis=1)
+    if limited:  # what of each cell has passed its east face
+        step = np.diff(wider, axis=1)
+        west, east = step[:, :-1], step[:, 1:]
+        slope = (2.0 - s) / 3.0 * east + (1.0 + s) / 3.0 * west
+        most = 2.0 * np.minimum(np.abs(west), np.abs(east))
+        slope = np.where(west * east > 0.0, np.sign(slope) * np.minimum(np.abs(slope), most), 0.0)
+        cells = wider[:, 1:-1]
+        flux = s * (cells + 0.5 * (1.0 - s) * slope)
+        moved = cells[:, 1:] - np.diff(flux, axis=1)
+        first = ghosts - nodes - 2
+        return moved[:, first : first + field.shape[1]]
     found = np.zeros_like(field)
     for place in CUBIC:
         others = [one for one in CUBIC if one != place]

@@ -139,7 +139,7 @@ class UpstreamField:
         self.middle = int(np.argmin(np.abs(grid.x)))
 
     def set_edges(self, pressure: Array, film: Array) -> None:
-        """Set the pressure on the inlet edge for a film.
+        """Set the pressure on the inlet edge for a film; it is zero on the outlet edge.
 
         Parameters
         ----------
@@ -148,7 +148,7 @@ class UpstreamField:
         film : Array
             H [-], (1, nx), positive on the edge.
         """
-        pressure[0, 0] = self._beyond(film).pressure
+        pressure[0, 0], pressure[0, -1] = self._beyond(film).pressure, 0.0
 
     def load(self, film: Array, gap: Array) -> float:
         """Return the integral of P upstream of the grid [-].

@@ -144,7 +144,9 @@ def _name(name: str, grammar: Grammar) -> Term:
     known = grammar.names | {"pi": Term(lambda _: math.pi, 0.0), _UNIT: Term(lambda _: 1.0, 1.0)}
     if name not in known:
         *first, last = (one for one in known if one != _UNIT)
-        raise ValueError(f"has the unknown name {name[:40]!r}: known are {', '.join(first)} and {last}")
+        raise ValueError(
+            f"has the unknown name {name[:40]!r}: known are {', '.join(first)} and {last}"
+        )
     return known[name]
 
 

@@ -182,7 +182,7 @@ def _after_failure(
     )
 
 
-def try_strategies(  # noqa: PLR0913 (variants of one solve)
+def try_strategies(
     problem: ContactProblem,
     options: Options,
     *,

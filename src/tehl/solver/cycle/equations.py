@@ -19,14 +19,13 @@ from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.starvation import EnteringOil, entering_oil, supplied_film
 from tehl.kernels import reynolds
 from tehl.operators.deformation import Deformation, choose
-from tehl.operators.far_field import FarField, far_field
+from tehl.operators.far_field import Edges, far_field
 from tehl.operators.film import gap
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence, influence_of
 from tehl.operators.load import Load
 from tehl.operators.reynolds import steady_stencil
 from tehl.operators.summits import AsperityTable, asperity_table
-from tehl.operators.upstream import UpstreamField
 
 FLOOR = 0.02
 """Least film in the conductance, over the expected central film."""
@@ -52,7 +51,7 @@ class Equations:
     """Integral of P over the domain [-]."""
     gap: Array
     """Undeformed gap [-], ``grid.shape``."""
-    far_field: FarField | UpstreamField | None
+    far_field: Edges | None
     """Pressure on the edges and load outside; None if the pressure is zero there."""
     layer: Array | None
     """Oil that enters each line, ``rho H``, (ny,), infinite if flooded; None if oil is not

@@ -161,7 +161,7 @@ class Conserving(ZeroPressure):
         reynolds.operator(film, stencil, rest)
         np.subtract(level.sources.reynolds, rest, out=rest)
         missing = np.maximum(rest, 0.0) / stencil.w0
-        missing[[0, -1] if not level.grid.mirror else [-1]] = 0.0
+        missing[list(level.grid.edge_rows)] = 0.0
         missing[:, [0, -1]] = 0.0
         return np.where(film.p > 0.0, full, np.maximum(full - missing, 0.0))
 

@@ -85,7 +85,9 @@ def check_peaks(courses: Mapping[str, Course], seconds: float) -> None:
         levels = plateaus(course.table)
         values = [value for *_, value in levels]
         change = max(values, default=0.0) - min(values, default=0.0)
-        for before, (first, last, value), after in zip(levels, levels[1:], levels[2:], strict=False):
+        for before, (first, last, value), after in zip(
+            levels, levels[1:], levels[2:], strict=False
+        ):
             turns = (value - before[2]) * (value - after[2]) > 0
             steps = [round(time / seconds) * seconds for time in (first, last)]
             seen = math.ceil(first / seconds) * seconds <= last

@@ -162,10 +162,10 @@ class Run:
                 keep(self.snapshot())
         return Status(kind="converged")
 
-    def _moved(self, step: int) -> Array | None:
+    def _moved(self, step: int) -> tuple[float, float] | None:
         """Return the distances of both surfaces until a step [a_x]; None at constant speeds."""
         travelled = self.schedule.travelled
-        return None if travelled is None else travelled[1:, step]
+        return None if travelled is None else (travelled[1, step], travelled[2, step])
 
     def _note(self, step: int, heights: tuple[Array, Array], end: StepEnd | None) -> None:
         """Record a step; at time zero it has no cycles."""

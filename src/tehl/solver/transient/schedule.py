@@ -72,9 +72,7 @@ def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
             "steady film, so its first speed must be positive"
         )
     stated = moment_at(problem.model_copy(update={"transient": None}), 0.0)
-    constant = all(
-        (one.speed, one.sliding) == (stated.speed, stated.sliding) for one in moments
-    )
+    constant = all((one.speed, one.sliding) == (stated.speed, stated.sliding) for one in moments)
     travelled = None if constant else _travelled(scaled, step, number)
     return Schedule(step=step, moments=moments, travelled=travelled)
 

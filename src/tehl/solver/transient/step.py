@@ -83,6 +83,8 @@ class Stepper:
         level = solver.finest
         self.time_step = transient.stride * level.grid.dx
         self.steady, self.wedge = _steady_oil(level, solver.options.order)
+        mirrored = steady_wedge(self.steady[:, ::-1], level.grid.dx, solver.options.order)
+        self.against = -mirrored[:, ::-1]  # the wedge where the film moves against x
         self.now, self.before = self.steady.copy(), self.steady.copy()
         self.predictor = Predictor(level.pressure, transient.stride)
         # all levels take the same time step, and so the same weight of rho H
@@ -145,7 +147,7 @@ class Stepper:
                 if isinstance(error, StepError):
                     raise
                 raise StepError("diverged", np.nan) from error
-            self.before, self.now = self.now, self._held()
+            self.before, self.now = self.now, self._held(moment)
             self.predictor.note(level.pressure)
             self.squeeze.advance()
             self.solver.coupling.advance(self.solver.levels)
@@ -158,27 +160,39 @@ class Stepper:
         The mass of the steady film keeps its own wedge, whatever the stride; only the difference to
         it is differentiated along the motion.
         """
-        steady, wedge = self.steady, self.wedge
+        steady, wedge, level = self.steady, self.wedge, self.solver.finest
         steps = (float(self.transient.stride), 2.0 * self.transient.stride)
         if passed is not None:
-            spacing = self.solver.finest.grid.dx
-            steps, wedge = (passed[0] / spacing, passed[1] / spacing), moment.speed * wedge
-        last = 2.0 * carried(self.now - steady, steps[0])
-        before = 0.5 * carried(self.before - steady, steps[1])
+            spacing = level.grid.dx
+            steps = passed[0] / spacing, passed[1] / spacing
+            if moment.speed < 0.0 and not level.stencil.conserves:
+                wedge = self.against
+            wedge = moment.speed * wedge
+        limited = passed is not None and level.stencil.conserves > 0
+        last = 2.0 * carried(self.now - steady, steps[0], limited=limited)
+        before = 0.5 * carried(self.before - steady, steps[1], limited=limited)
         return (last - before + 1.5 * steady) / self.time_step - wedge
 
     def _equations(self, moment: Moment) -> Equations:
         """Return the equations of the finest level at a moment."""
         return self.equations.at(moment, self.solver.hierarchy.scaled)
 
-    def _held(self) -> Array:
-        """Return the oil at each node; on the edges where it enters that of the steady film."""
+    def _held(self, moment: Moment) -> Array:
+        """Return the oil at each node; on the edges where it enters that of the steady film.
+
+        Where the film moves against x the supply enters at the other edge.
+        """
         level = self.solver.finest
         held = level.cavity.held(level)
         if level.stencil.conserves:
             starved = level.film.partial[:, 0] > 0
             held[starved, 0] = self.steady[starved, 0]
-            for edge in (-1,) if level.grid.mirror else (0, -1):
+            outlet, last = (-1, -2) if moment.speed > 0.0 else (0, 1)
+            held[:, outlet] = np.minimum(held[:, outlet], held[:, last])
+            if moment.speed < 0.0:
+                full = level.film.rho[:, -1] * level.film.h[:, -1]
+                held[:, -1] = np.minimum(full, level.film.layer)
+            for edge in level.grid.edge_rows:
                 held[edge] = self.steady[edge]
         return held
 
@@ -236,7 +250,7 @@ def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
             return mass, steady_flux(level.film, mass, level.grid.dx, order)
         return mass, steady_wedge(mass, level.grid.dx, order)
     held, _ = oil_flow(level)
-    for edge in (-1,) if level.grid.mirror else (0, -1):  # nothing is solved there
+    for edge in level.grid.edge_rows:  # nothing is solved there
         held[edge] = np.minimum(held[edge], level.film.layer[edge])
     return held, steady_flux(level.film, held, level.grid.dx, order)
 

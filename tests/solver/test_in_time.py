@@ -1,0 +1,186 @@
+"""Load, speed and radius that change in time: films of another program, steady ones, oil."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from tehl import InputError, solve, solve_transient
+from tehl.api.problem import ContactProblem
+from tehl.api.results import TransientResult
+from tehl.contact.moment import courses_of, moment_at
+from tehl.contact.options import Domain, Options
+from tehl.estimate.scaling import scales
+from tehl.operators.reynolds import carried
+from tehl.solver.monitor import SILENT
+from tehl.solver.transient.run import Run
+from tests.reference import moes_contact, read
+from tests.solver.test_line import line
+
+CITED = read("in_time")
+UNITS = scales(line(20, 10))
+UNIT = UNITS.half_width_x / UNITS.speed
+CHANGES: dict[str, dict] = {
+    "sine": {"entrainment_speed": f"1 + 0.5*sin(t/({UNIT!r} s))"},
+    "load": {"load": f"1 + 0.3*sin(t/({UNIT!r} s))"},
+    "start": {"entrainment_speed": [[0.0, 0.2], [UNIT, 1.0]]},
+    "reverse": {"entrainment_speed": [[UNIT, 1.0], [11.0 * UNIT, -1.0]]},
+}
+TIGHT = {"tolerance": 1e-5, "frames": 0, "max_cycles": 40}
+
+
+def changing(points: int, edges: list[float], end: float, **transient: object) -> TransientResult:
+    """Return the run of M = 20, L = 10 until T = ``end``."""
+    case = line(20, 10, transient={"duration": end * UNIT} | TIGHT | transient)
+    return solve_transient(case, Options(points=points, domain=Domain(x=tuple(edges))))
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_films_are_those_of_another_program(name):
+    cited, films = CITED[name], []
+    for points in (257, 513) if name in ("start", "reverse") else (129, 257):
+        run = changing(points, cited["edges"], cited["samples"][-1][0] + 0.1, **CHANGES[name])
+        assert run.status.converged
+        time = run.history.time / UNIT
+        both = (run.history.film_central, run.history.film_minimum)
+        splines = [CubicSpline(time, one / UNITS.film_thickness) for one in both]
+        films.append([[float(one(row[0])) for one in splines] for row in cited["samples"]])
+    coarse, fine = np.array(films)
+    wanted = np.array(cited["samples"])[:, 1:]
+    order = np.log2(np.abs(coarse - wanted) / np.abs(fine - wanted))
+    assert np.median(order) == pytest.approx(2.0, abs=0.25)
+    np.testing.assert_allclose((4.0 * fine - coarse) / 3.0, wanted, rtol=2e-3)
+
+
+def test_a_slow_change_passes_through_steady_films():
+    """Speed, load and radius grow by some per cent while the film passes 20 half-widths."""
+    end, last = 20.0 * UNIT, {"entrainment_speed": 1.03, "load": 1.02, "radius": 1.01}
+    tables = {key: [[0.0, 1.0], [end, value]] for key, value in last.items()}
+    run = changing(257, [-4.5, 1.5], 20.0, **tables)
+    case = line(20, 10)
+    stated = {
+        "moes_load": None,
+        "moes_speed": None,
+        "radius": 1.01 * case.radius_x,
+        "load_per_length": 1.02 * case.load,
+        "entrainment_speed": 1.03 * case.entrainment_speed,
+    }
+    heavier = case.model_copy(update={"contact": case.contact.model_copy(update=stated)})
+    heavier = ContactProblem.model_validate(heavier.model_dump(exclude_none=True))
+    part = UNITS.half_width_x / scales(heavier).half_width_x
+    box = Domain(x=(-4.5 * part, 1.5 * part))
+    steady = solve(heavier, Options(points=257, domain=box, extrapolate=False, wedge_order=2))
+    assert run.history.film_central[-1] == pytest.approx(steady.film.central, rel=1e-3)
+    assert run.history.film_minimum[-1] == pytest.approx(steady.film.minimum, rel=1e-3)
+    assert abs(steady.film.central / run.history.film_central[0] - 1.0) > 0.02
+
+
+def test_a_table_that_does_not_change_gives_the_same_run_bit_by_bit():
+    plain = changing(129, [-4.5, 1.5], 2.0)
+    table = [[0.0, 1.0], [UNIT, 1.0]]
+    same = changing(129, [-4.5, 1.5], 2.0, entrainment_speed=table, radius=table, load=table)
+    np.testing.assert_array_equal(plain.profiles.pressure, same.profiles.pressure)
+    np.testing.assert_array_equal(plain.profiles.film, same.profiles.film)
+
+
+def test_the_film_after_a_reversal_is_the_mirror_image():
+    """The domain and the pressure on its edges follow the motion."""
+    case = moes_contact(50, 5)
+    unit, speed = scales(case).half_width_x / scales(case).speed, case.entrainment_speed
+    turn = [[0.5 * unit, f"{speed} m/s"], [1.5 * unit, f"{-speed} m/s"]]
+    tables = case.model_dump(exclude_none=True) | {
+        "transient": {
+            "duration": 7 * unit,
+            "entrainment_speed": turn,
+            "frames": 2,
+            "tolerance": 1e-5,
+        }
+    }
+    run = solve_transient(ContactProblem.model_validate(tables), Options(points=65))
+    x = run.start.scaled.x
+    assert x[0] == -x[-1]
+    first, last = run.frames.film
+    inside = np.abs(x) < 1.0
+    np.testing.assert_allclose(last[:, ::-1][:, inside], first[:, inside], rtol=1e-3)
+    assert run.history.film_minimum.min() < 0.7 * run.history.film_minimum[0]
+
+
+def test_oil_is_conserved_through_a_reversal():
+    """What the cells hold changes by what passes the edges, step by step."""
+    turn = {"entrainment_speed": [[0.5 * UNIT, 1.0], [2.5 * UNIT, -1.0]], "duration": 4.0 * UNIT}
+    settings = {"tolerance": 1e-8, "max_cycles": 60, "frames": 0}
+    case = line(20, 10, transient=turn | settings, supply={"ratio": 0.6})
+    assert case.transient is not None
+    run = Run(case, Options(points=129, domain=Domain(x=(-4.0, 4.0))), case.transient, SILENT)
+    stepper, spacing, film = run.stepper, run.level.grid.dx, run.level.film
+    for step in range(1, run.steps + 1):
+        moment, passed = run.schedule.moments[step], run.schedule.passed(step)
+        assert passed is not None
+        came = [
+            part * carried(one - stepper.steady, way / spacing, limited=True)
+            for part, one, way in zip(
+                (2.0, -0.5), (stepper.now, stepper.before), passed, strict=True
+            )
+        ]
+        stepper.step(np.zeros(run.level.grid.shape), moment, passed)
+        gained = (1.5 * (stepper.now - stepper.steady) - sum(came)) / stepper.time_step
+        gained += moment.speed * stepper.wedge
+        flow = 0.5 * (film.eps_x[0, 1:] + film.eps_x[0, :-1]) * np.diff(film.p[0]) / spacing
+        missing = flow[-1] - flow[0] - spacing * gained[0, 1:-1].sum()
+        assert abs(missing) * stepper.time_step < 1e-8 * spacing * stepper.now.sum()
+        assert stepper.now.min() > 0.2 * stepper.steady.min()
+    assert moment.speed == -1.0
+
+
+def test_a_field_is_carried_to_fourth_order_and_fronts_stay_monotone():
+    errors = []
+    for nodes in (32, 64):
+        x = np.arange(nodes) / nodes
+        wave = np.sin(2.0 * np.pi * x)[None]
+        moved = carried(wave, -1.3)[0] - np.sin(2.0 * np.pi * (x + 1.3 / nodes))
+        errors.append(np.abs(moved[4:-4]).max())
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(4.0, abs=0.1)
+    front = np.where(np.arange(40) < 20, 1.0, 0.1)[None]
+    for distance in (0.3, 2.7, -0.6):
+        moved = carried(front, distance, limited=True)
+        assert moved.sum() == pytest.approx(front.sum() + 0.9 * distance, rel=1e-12)
+        assert moved.min() >= 0.1 - 1e-12
+        assert moved.max() <= 1.0 + 1e-12
+
+
+def test_a_file_a_table_and_a_formula_state_the_same(tmp_path):
+    path = tmp_path / "speed.csv"
+    speed = line(20, 10).entrainment_speed
+    path.write_text(f"t [ms], u [m/s]\n0, {speed}\n2, {2 * speed}\n")
+    base = line(20, 10).model_dump(exclude_none=True)
+    for stated in ("speed.csv", [[0, 1], ["2 ms", 2]], "1 + t/(2 ms)"):
+        base["transient"] = {"duration": "2 ms", "entrainment_speed": stated}
+        case = ContactProblem.model_validate(base, context={"folder": tmp_path})
+        again = ContactProblem.model_validate_json(case.model_dump_json(exclude_none=True))
+        for found in (case, again):
+            assert moment_at(found, 1e-3).speed == pytest.approx(1.5, rel=1e-12)
+            assert set(courses_of(found)) == {"entrainment_speed"}
+    base["transient"] = {"sliding_speed": [[0, f"{speed} m/s"], [1, 0]], "radius": [[0, "40 mm"]]}
+    moment = moment_at(ContactProblem.model_validate(base), 0.5)
+    assert moment.speeds == pytest.approx((1.25, 0.75))
+    assert moment.curvature == pytest.approx(0.5)
+
+
+MISTAKES = [
+    ({"entrainment_speed": "1 + x"}, "unknown name 'x': known are t and pi"),
+    ({"entrainment_speed": "1 + t"}, "adds a plain number and a time"),
+    ({"entrainment_speed": "1 - t/(1 s)"}, "transient.duration is missing"),
+    ({"entrainment_speed": [[0, "3 mm"]]}, "unit of a length"),
+    ({"entrainment_speed": [[0, 1], [0, 2]]}, "times that increase"),
+    ({"load": [[0, -1]]}, "must be positive"),
+    ({"radius": 3}, "pairs of a time and a value"),
+    ({"radius": "missing.csv"}, "cannot be read"),
+    ({"slide_roll_ratio": [[0, 1]], "sliding_speed": [[0, 1]]}, "state the same"),
+    ({"entrainment_speed": [[0, 0], [1e-5, 1]]}, "first speed must be positive"),
+    ({"load": "0.5 - t/(1 ms)", "duration": "1 ms"}, "transient.load = .* must be positive"),
+]
+
+
+@pytest.mark.parametrize(("transient", "words"), MISTAKES)
+def test_what_cannot_be_is_one_sentence(transient, words):
+    with pytest.raises((InputError, ValueError), match=words):
+        solve_transient(line(20, 10, transient=transient), Options(points=65))
