@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-LARGEST_FILE = 1_000_000
+LARGEST_TABLE = 1_000_000
 """Characters that are read."""
 
 
@@ -27,7 +27,7 @@ def read_columns(
         If it is not a file of two columns of numbers.
     """
     try:
-        text = path.read_text(encoding="utf-8-sig")[:LARGEST_FILE]
+        text = path.read_text(encoding="utf-8-sig")[:LARGEST_TABLE]
     except (OSError, UnicodeDecodeError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "not a text file"
         raise ValueError(f"cannot be read ({reason})") from None

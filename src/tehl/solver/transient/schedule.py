@@ -11,7 +11,7 @@ from tehl.contact.course import LARGEST_FACTOR
 from tehl.contact.moment import Moment, courses_of, moment_at
 from tehl.estimate.scaling import ScaledProblem
 
-GAUSS_NODES = 4
+NODES_PER_STEP = 4
 """Nodes of Gauss per step for the distances: their error is of eighth order in the step."""
 SIGNED = ("entrainment_speed", "slide_roll_ratio", "sliding_speed")
 """Keys of the motion, whose values may be negative."""
@@ -90,7 +90,7 @@ def _check(key: str, value: float, time: float) -> None:
 
 def _travelled(scaled: ScaledProblem, step: float, number: int) -> Array:
     """Return the distances of `Schedule.travelled`."""
-    nodes, weights = np.polynomial.legendre.leggauss(GAUSS_NODES)
+    nodes, weights = np.polynomial.legendre.leggauss(NODES_PER_STEP)
     unit, gained = _time_unit(scaled), np.zeros((3, number + 1))
     for n in range(number):
         for place, weight in zip(0.5 * (nodes + 1.0), 0.5 * weights, strict=True):
