@@ -336,13 +336,13 @@ def test_each_section_conserves_oil_while_surfaces_touch(monkeypatch):
 
     def step(self, heights, load):
         end = advance(self, heights, load)
-        level, flow = self.solver.finest, np.empty(self.now.shape)
+        level, flow = self.solver.finest, np.empty(self.oil.now.shape)
         film, weight = level.film, level.stencil.w0
         reynolds.operator(film, level.stencil, flow)  # pressure flow less weight * rho H
-        held = weight * (film.rho * film.h - self.now)
+        held = weight * (film.rho * film.h - self.oil.now)
         missing = np.where(film.p > 0.0, flow + held + level.sources.history, 0.0)[:-1, 1:-1]
         missing[0] *= 0.5  # on the symmetry line
-        errors.append(np.abs(missing.sum(axis=0) / (weight * self.now.sum(axis=0)[1:-1])).max())
+        errors.append(np.abs(missing.sum(axis=0) / (weight * self.oil.now.sum(axis=0)[1:-1])).max())
         touching.append(int(level.share.touching.sum()))
         return end
 

@@ -75,7 +75,7 @@ def test_the_heated_film_conserves_mass(slide):
     moving, there, flow = (np.array(one) for one in (carried, stored, pressed))
     along = np.gradient(moving - flow, run.level.grid.dx, axis=1)[1:-1]
     opening, wrong = (
-        (mass[2:] - mass[:-2]) / (2.0 * run.stepper.time_step) for mass in (there, moving)
+        (mass[2:] - mass[:-2]) / (2.0 * run.schedule.step) for mass in (there, moving)
     )
     inside = (slice(24, None), np.abs(run.level.grid.x) < 0.5)
     missed, mistaken, scale = (

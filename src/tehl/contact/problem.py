@@ -24,7 +24,7 @@ from tehl.contact.bodies import reduced_radius
 from tehl.contact.boundary_contact import THICKEST_BOUNDARY_FILM, THINNEST_BOUNDARY_FILM
 from tehl.contact.point_contact import Contact, PointContact, Surface
 from tehl.contact.summits import GreenwoodTripp
-from tehl.contact.transient import COURSES
+from tehl.contact.transient import COURSES, MOTION
 from tehl.lubricant.registered import package_of
 
 __all__ = ["Contact", "ContactProblem", "Surface"]
@@ -227,13 +227,8 @@ def check_transient(problem: PointContact) -> None:
             'thermal.sources = "full" is for steady films: in a transient run the surfaces are '
             "heated by line sources that move along with them"
         )
-    varied = [key for key in COURSES[1:] if getattr(transient, key)]
-    if problem.is_coupled and varied:
-        raise ValueError(
-            f"transient.{varied[0]} is for isothermal Newtonian films: heat and shear thinning "
-            "would need the history of surfaces that change their speed"
-        )
-    for key in SURFACES if thermal is not None else ():
+    varying = any(getattr(transient, key) for key in MOTION)
+    for key in SURFACES if thermal is not None and not varying else ():
         speed = problem.motion.speed_1 if key == "surface_1" else problem.motion.speed_2
         if not speed * transient.stride >= 0.5 * problem.entrainment_speed * (1.0 - 1e-9):
             raise ValueError(

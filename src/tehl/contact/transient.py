@@ -8,8 +8,9 @@ from tehl.base.table import Table
 from tehl.base.units import Instant, PositiveNumber, Time
 from tehl.contact.course import LoadCourse, RadiusCourse, RatioCourse, SpeedCourse
 
-COURSES = ("load", "entrainment_speed", "slide_roll_ratio", "sliding_speed", "radius")
-"""Keys of what changes in time."""
+MOTION = ("entrainment_speed", "slide_roll_ratio", "sliding_speed")
+COURSES = ("load", *MOTION, "radius")
+"""Keys of what changes in time: motion, and all."""
 
 
 class Transient(Table):

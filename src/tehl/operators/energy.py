@@ -1,5 +1,8 @@
 """Energy equation of the film on one grid (docs/theory/thermal.md): its state and one sweep."""
 
+from dataclasses import replace
+from functools import partial
+
 import numpy as np
 
 from tehl.base.typing import Array
@@ -10,8 +13,9 @@ from tehl.kernels.energy.march import sweep
 from tehl.kernels.energy.records import GHOSTS, Fields, Surfaces, Terms, scratch
 from tehl.operators.heated_film import HeatedFilm, padded_rows, stress_unit
 from tehl.operators.surfaces import Solids
+from tehl.operators.trail import Trail, VaryingTrail
 from tehl.operators.transfer import midpoints
-from tehl.operators.transient_film import TransientFilm, without_history
+from tehl.operators.transient_film import MakeTrail, Path, TransientFilm, without_history
 
 FAR_FILM = 1e3
 """Film thickness in the rows that fill up the last block [-]: so thick that it hardly warms."""
@@ -189,26 +193,42 @@ class FilmState:
         self.update_surfaces()
         return change
 
-    def begin_transient(self, time_step: float) -> None:
+    def begin_transient(self, time_step: float, varying_steps: int = 0) -> None:
         """Make the energy equation transient, with the present film as steady history.
 
         Parameters
         ----------
         time_step : float
             In units of a_x / u_m [-].
+        varying_steps : int
+            Steps of a run in which the surfaces change their speeds; zero if they do not.
         """
         nx, ny = self.fields.p.shape
         shape = (nx, self.film.heat.layers, ny)
         self.fields = self.fields._replace(past=np.zeros(shape), pressing=np.zeros((nx, ny)))
-        speed = self.film.scaled.scales.speed
-        paths = [
-            (side.bulk, surface.factor, self.grid.dx * speed / (side.speed * time_step))
-            for side, surface in zip(self.film.sides, self.surfaces, strict=True)
-        ]
-        self.transient = TransientFilm(self.fields, self.surfaces, self.grid.dx, time_step, paths)
+        scales, unit, paths = self.film.scaled.scales, self.film.flux_unit, list[Path]()
+        make: MakeTrail
+        for side, surface in zip(self.film.sides, self.surfaces, strict=True):
+            moved = side.speed / scales.speed * time_step / self.grid.dx  # nodes per step
+            if varying_steps:
+                make = partial(VaryingTrail, time_step=time_step, nodes=moved, steps=varying_steps)
+                factor = replace(side, speed=scales.speed).line_factor(scales, unit)
+                paths.append((side.bulk, factor, make))
+            else:
+                lag = self.grid.dx * scales.speed / (side.speed * time_step)
+                make = partial(Trail, spacing=self.grid.dx, lag=lag)
+                paths.append((side.bulk, surface.factor, make))
+        self.transient = TransientFilm(self.fields, self.surfaces, time_step, paths)
         if self.solids.rubbing is not None:
             self.transient.begin_rubbing(self.solids.rubbing)
-        self.surfaces = Surfaces(*(without_history(surface) for surface in self.surfaces))
+        self.surfaces = Surfaces(
+            *(
+                without_history(surface)._replace(factor=factor, near=trail.near)
+                for surface, (_, factor, _), trail in zip(
+                    self.surfaces, paths, self.transient.trails, strict=True
+                )
+            )
+        )
         self._set_terms(self.model.terms._replace(over_t=1.5 / time_step))
 
     def update_surfaces(self) -> None:

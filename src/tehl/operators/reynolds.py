@@ -109,8 +109,8 @@ def upstream(field: Array, nodes: int) -> Array:
     return shifted
 
 
-def carried(field: Array, distance: float, *, limited: bool = False) -> Array:
-    """Return a field where the film was a distance ago; linear beyond both edges.
+def carried(field: Array, distance: float, *, limited: bool = False, flat: bool = False) -> Array:
+    """Return a field where it was a distance ago; linear beyond both edges.
 
     The weights are the same at all nodes, so that the sum over them is conserved.
 
@@ -122,23 +122,28 @@ def carried(field: Array, distance: float, *, limited: bool = False) -> Array:
         Along x in mesh widths; negative where the film moves against x.
     limited : bool
         Whether fronts of oil stay monotone, at second order; else by cubic interpolation.
+    flat : bool
+        Whether the field is constant beyond the edges.
     """
     if distance < 0.0:
-        return carried(field[:, ::-1], -distance, limited=limited)[:, ::-1]
+        return carried(field[:, ::-1], -distance, limited=limited, flat=flat)[:, ::-1]
     whole = round(distance)
-    if abs(distance - whole) < NODE_ROUNDING:
+    if abs(distance - whole) < NODE_ROUNDING and not (flat and whole):
         return upstream(field, whole) if whole else field.copy()
     nodes, s = int(distance), distance - int(distance)
     ghosts = nodes + len(CUBIC) - 1
-    steps = np.arange(-ghosts, 0.0)
-    west = field[:, :1] + steps * (field[:, 1:2] - field[:, :1])
-    wider = np.concatenate([west, field, 2.0 * field[:, -1:] - field[:, -2:-1]], axis=1)
+    rise = 0.0 if flat else 1.0
+    west = field[:, :1] + rise * np.arange(-ghosts, 0.0) * (field[:, 1:2] - field[:, :1])
+    east = field[:, -1:] + rise * (field[:, -1:] - field[:, -2:-1])
+    wider = np.concatenate([west, field, east], axis=1)
     if limited:  # what of each cell has passed its east face
         step = np.diff(wider, axis=1)
-        west, east = step[:, :-1], step[:, 1:]
-        slope = (2.0 - s) / 3.0 * east + (1.0 + s) / 3.0 * west
-        most = 2.0 * np.minimum(np.abs(west), np.abs(east))
-        slope = np.where(west * east > 0.0, np.sign(slope) * np.minimum(np.abs(slope), most), 0.0)
+        behind, ahead = step[:, :-1], step[:, 1:]
+        slope = (2.0 - s) / 3.0 * ahead + (1.0 + s) / 3.0 * behind
+        most = 2.0 * np.minimum(np.abs(behind), np.abs(ahead))
+        slope = np.where(
+            behind * ahead > 0.0, np.sign(slope) * np.minimum(np.abs(slope), most), 0.0
+        )
         cells = wider[:, 1:-1]
         flux = s * (cells + 0.5 * (1.0 - s) * slope)
         moved = cells[:, 1:] - np.diff(flux, axis=1)

@@ -9,11 +9,14 @@ in which the surface moves by a mesh width. Between time levels they are interpo
 order.
 """
 
+import math
+
 import numpy as np
 
 from tehl.base.typing import Array
 from tehl.kernels.energy import trail
 from tehl.operators.line_source import history
+from tehl.operators.reynolds import carried
 
 LONGEST_LAG = 2.0
 """Most time steps in which a surface may move by a mesh width: earlier levels are not stored."""
@@ -35,6 +38,7 @@ class Trail:
     def __init__(self, flux: Array, spacing: float, lag: float) -> None:
         nx, ny = flux.shape
         weights = history(nx, spacing)
+        self.near = weights.near
         self.weights = trail.Weights(*(weights.next_, weights.decay, weights.older, weights.newer))
         self.lags = (lag_of(lag, 0), lag_of(2.0 * lag, min(int(2.0 * lag), 2)))
         self.fluxes = np.repeat(flux[None], 5, axis=0)
@@ -50,10 +54,78 @@ class Trail:
         trail.carry(self.modes, self.fluxes, self.weights, self.lags, self.past)
         return self.past
 
+    def move(self, nodes: float) -> None:
+        """Begin a step; the surface moves as at the beginning."""
+        del nodes
+
     def advance(self) -> None:
         """Accept the present as the last time level of the next step."""
         self.fluxes[1:] = self.fluxes[:-1].copy()
         self.modes[1:] = self.modes[:-1].copy()
+
+    def arrays(self) -> dict[str, Array]:
+        """Return what a later step needs."""
+        return {"modes": self.modes, "fluxes": self.fluxes}
+
+
+class VaryingTrail:
+    r"""History of one surface whose speed changes in time.
+
+    Each material point takes up heat as a half-space does, at whatever place it is,
+
+        T - T_b = 1/sqrt(pi rho c k) int q(x(t'), t') / sqrt(t - t') dt',
+
+    with the flux linear in time between steps. The exponentials of time move with the surface,
+    forwards, backwards or not at all; beyond the edges the surface is as warm as there.
+
+    Parameters
+    ----------
+    flux : (nx, ny) array
+        Steady flux at the beginning, dimensionless.
+    time_step : float
+        In units of a_x / u_m.
+    nodes, steps : float, int
+        Mesh widths that the surface moves per step at the beginning, and steps of the run.
+    """
+
+    def __init__(self, flux: Array, time_step: float, nodes: float, steps: int) -> None:
+        past = math.ceil(flux.shape[0] / nodes)
+        self.weights = history(steps + past, time_step)
+        self.near = self.weights.near
+        self.fluxes = np.repeat(flux.T[None], 3, axis=0)  # now, last and the one before it
+        self.modes = np.zeros((2, len(self.weights.decay), *flux.T.shape))
+        self.past, self.present = np.zeros_like(flux), flux.T
+        for _ in range(past):
+            self.move(nodes)
+            self.advance()
+
+    def move(self, nodes: float) -> None:
+        """Begin a step in which the surface moves by ``nodes`` mesh widths."""
+        count, ny, nx = self.modes[1].shape
+        decay, older, newer = (
+            one[:, None, None]
+            for one in (self.weights.decay, self.weights.older, self.weights.newer)
+        )
+        _, last, before = self.fluxes
+        modes = (decay * self.modes[1] + older * before + newer * last).reshape(count * ny, nx)
+        self.modes[0] = carried(modes, nodes, flat=True).reshape(count, ny, nx)
+        self.fluxes[0] = carried(last, nodes, flat=True)
+        self.past = (self.weights.next_ * self.fluxes[0] + self.modes[0].sum(axis=0)).T
+
+    def update(self, flux: Array) -> Array:
+        """Return the rise of each node by what it took up before this step, (nx, ny)."""
+        self.present = flux.T
+        return self.past
+
+    def advance(self) -> None:
+        """Accept the present as the last time level of the next step."""
+        self.fluxes[2] = self.fluxes[0]
+        self.fluxes[1] = self.present
+        self.modes[1] = self.modes[0]
+
+    def arrays(self) -> dict[str, Array]:
+        """Return what a later step needs."""
+        return {"modes": self.modes, "fluxes": self.fluxes}
 
 
 def lag_of(steps: float, first: int) -> trail.Lag:

@@ -3,29 +3,34 @@
 Time derivatives are backward differences of second order (docs/theory/numerics-thermal.md).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from tehl.base.typing import Array
 from tehl.kernels.energy.records import GHOSTS, Fields, Surface, Surfaces
-from tehl.operators.line_source import history
-from tehl.operators.trail import Trail
+from tehl.operators.trail import Trail, VaryingTrail
+
+MakeTrail = Callable[[Array], Trail | VaryingTrail]
+"""Returns the history of a surface from its flux, (nx, ny)."""
+
+Path = tuple[float, float, MakeTrail]
+"""Bulk temperature [K], rise per flux integral, and history of a surface."""
 
 
 class Rubbing:
-    """Heat of asperities into one surface, and its trail; parameters as of `Trail`.
+    """Heat of asperities into one surface, and its trail.
 
     The march of the energy equation does not carry it, so its whole rise is that of the wall.
     """
 
-    def __init__(self, flux: Array, spacing: float, lag: float) -> None:
-        self.flux, self.trail = np.ascontiguousarray(flux), Trail(flux, spacing, lag)
-        self.near = history(flux.shape[0], spacing).near
+    def __init__(self, flux: Array, trail: MakeTrail) -> None:
+        self.flux = np.ascontiguousarray(flux)
+        self.trail = trail(self.flux)
 
     def rise(self) -> Array:
         """Return the rise by the present flux and that upstream, (nx, ny)."""
-        rise: Array = self.trail.update(self.flux) + self.near * self.flux
+        rise: Array = self.trail.update(self.flux) + self.trail.near * self.flux
         return rise
 
 
@@ -41,19 +46,18 @@ class TransientFilm:
         Of the film; ``past`` and ``pressing`` are output.
     surfaces : Surfaces
         With the steady flux.
-    spacing, time_step : float
-        Mesh width [a_x] and step [a_x / u_m].
-    paths : sequence of (float, float, float)
-        Bulk temperature [K], rise per flux integral, and steps per mesh width of each surface.
+    time_step : float
+        Step [a_x / u_m].
+    paths : sequence of Path
+        Of each surface.
     """
 
     def __init__(
         self,
         fields: Fields,
         surfaces: Surfaces,
-        spacing: float,
         time_step: float,
-        paths: Sequence[tuple[float, float, float]],
+        paths: Sequence[Path],
     ) -> None:
         self.fields, self.time_step, self.paths = fields, time_step, paths
         self.fluxes = tuple(surface.flux for surface in surfaces)
@@ -62,23 +66,28 @@ class TransientFilm:
         self.pressures = np.stack([fields.p, fields.p])
         self.stresses = np.stack([fields.tau_x, fields.tau_y])
         self.trails = [
-            Trail(surface.flux[GHOSTS:-GHOSTS], spacing, lag)
-            for surface, (_, _, lag) in zip(surfaces, paths, strict=True)
+            trail(surface.flux[GHOSTS:-GHOSTS])
+            for surface, (_, _, trail) in zip(surfaces, paths, strict=True)
         ]
-        self.spacing, self.rubbing = spacing, list[Rubbing]()
+        self.rubbing = list[Rubbing]()
         self._set_past()
 
     def begin_rubbing(self, fluxes: tuple[Array, Array]) -> None:
         """Take the heat of asperities into each surface, (nx, ny), as steady history."""
         self.rubbing = [
-            Rubbing(flux, self.spacing, lag)
-            for flux, (_, _, lag) in zip(fluxes, self.paths, strict=True)
+            Rubbing(flux, trail) for flux, (_, _, trail) in zip(fluxes, self.paths, strict=True)
         ]
 
     def rub(self, fluxes: tuple[Array, Array]) -> None:
         """Set the heat of asperities into each surface, (nx, ny), dimensionless."""
         for rubbing, flux in zip(self.rubbing, fluxes, strict=True):
             rubbing.flux[:] = flux
+
+    def move(self, nodes: Sequence[float]) -> None:
+        """Begin a step in which each surface moves by this number of mesh widths."""
+        for trails in (self.trails, [one.trail for one in self.rubbing]):
+            for trail, one in zip(trails, nodes, strict=bool(trails)):
+                trail.move(one)
 
     def set_pressure(self) -> None:
         """Fill the time derivative of the pressure."""
@@ -116,10 +125,11 @@ class TransientFilm:
         arrays = {name: getattr(self, name) for name in ("temperatures", "pressures", "stresses")}
         for k, (flux, trail) in enumerate(zip(self.fluxes, self.trails, strict=True)):
             arrays[f"flux_{k}"] = flux
-            arrays[f"trail_{k}_modes"], arrays[f"trail_{k}_fluxes"] = trail.modes, trail.fluxes
+            arrays |= {f"trail_{k}_{name}": one for name, one in trail.arrays().items()}
         for k, rubbing in enumerate(self.rubbing):
-            arrays[f"rubbing_{k}"], trail = rubbing.flux, rubbing.trail
-            arrays[f"rubbing_{k}_modes"], arrays[f"rubbing_{k}_fluxes"] = trail.modes, trail.fluxes
+            arrays[f"rubbing_{k}"] = rubbing.flux
+            held = rubbing.trail.arrays()
+            arrays |= {f"rubbing_{k}_{name}": one for name, one in held.items()}
         return arrays
 
     def unpack(self, known: dict[str, Array]) -> None:

@@ -6,10 +6,12 @@ and density, which are constant during a cycle and injected to the coarser grids
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.contact.moment import Moment
 from tehl.contact.options import Options
 from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels import properties
@@ -80,6 +82,8 @@ class Coupling:
         self.state: FilmState | None = None  # on the last level that was started
         self.factors: properties.Factors | None = None
         self.change, self.rise, self.skip = 0.0, 0.0, False
+        # where motion varies: the density is that of the oil, not of its flux
+        self.carries_mean = False
 
     def begin(self, levels: Sequence[Level], *, finest: bool, full: bool) -> bool:
         """Heat the last of ``levels``; return whether it is heated or thinned.
@@ -202,7 +206,9 @@ class Coupling:
         self._set_factors(levels, properties.Factors(*(fields[f"factor_{name}"] for name in names)))
         self.factors = levels[-1].factors
 
-    def begin_transient(self, levels: Sequence[Level], time_step: float) -> None:
+    def begin_transient(
+        self, levels: Sequence[Level], time_step: float, varying_steps: int = 0
+    ) -> None:
         """Make the energy equation transient.
 
         Parameters
@@ -211,10 +217,41 @@ class Coupling:
             The coarsest first, with the factors of the steady film.
         time_step : float
             Step [a_x / u_m].
+        varying_steps : int
+            Steps of a run in which the surfaces change their speeds; zero if they do not.
         """
+        if self.state is not None and varying_steps:
+            self.carries_mean = self.thorough = self.state.thorough = True
+            self._couple(self.state, levels)
         self.factors = levels[-1].factors
         if self.state is not None and self.state.model.terms.heat:
-            self.state.begin_transient(time_step)
+            self.state.begin_transient(time_step, varying_steps)
+
+    def begin_step(self, moment: Moment, nodes: Sequence[float]) -> None:
+        """Set the motion of a step.
+
+        Parameters
+        ----------
+        moment : Moment
+            Its speeds.
+        nodes : (float, float)
+            Mesh widths that both surfaces move in it.
+        """
+        if self.film is None or self.state is None:
+            return
+        self.scaled = self.film.scaled = replace(self.scaled, moment=moment)
+        if self.state.transient is not None:
+            self.state.transient.move(nodes)
+
+    def lead(self) -> Array | None:
+        """Return the flux by the motion of both surfaces less that of rho_e at their mean, over H.
+
+        Of the last sweep, (ny, nx) [-]; None where the oil is the same across the film.
+        """
+        if self.state is None:
+            return None
+        mean = self.scaled.moment.speed * self.state.view("mean_density")
+        return np.ascontiguousarray((self.state.view("density") - mean).T)
 
     def excess(self) -> Array | None:
         """Return 1 - rho_e/rho* at the temperatures of the last sweep, (ny, nx); None if zero.
@@ -258,6 +295,8 @@ class Coupling:
         fine, names = levels[-1], properties.Heated._fields
         shape = fine.grid.shape
         heated = properties.Heated(*(np.ascontiguousarray(state.view(name).T) for name in names))
+        if self.carries_mean:
+            heated.density[:] = state.view("mean_density").T
         heated.mobility[:] /= self.scaled.groups.lambda_bar
         factors = properties.Factors(*np.empty((5, *shape)))
         # at H = 1 the conductance is the mobility: factors do not depend on the film

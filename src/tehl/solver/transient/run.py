@@ -105,9 +105,9 @@ class Run:
         self.scaled = attempt.run.hierarchy.scaled  # it knows the flooded film
         self._pose(attempt.run.finest.grid, smooth=smooth)
         settings: Sequence[Relaxation] = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
-        self.stepper = Stepper(attempt.run, transient, settings)
+        self.stepper = Stepper(attempt.run, transient, settings, self.schedule)
         self.record = Record()
-        self._note(0, self.heights.at(0.0, self._moved(0)), None)
+        self._note(0, self.heights.at(0.0, self.schedule.places(0)), None)
 
     def _pose(self, grid: Grid, *, smooth: bool) -> None:
         """Set heights and time steps on ``grid``, and check them.
@@ -145,13 +145,9 @@ class Run:
         """
         for step in range(len(self.record.rows), self.steps + 1):
             time_now = step * self.seconds
-            heights = self.heights.at(time_now, self._moved(step))
+            heights = self.heights.at(time_now, self.schedule.places(step))
             try:
-                end = self.stepper.step(
-                    heights[0] + heights[1],
-                    self.schedule.moments[step],
-                    self.schedule.passed(step),
-                )
+                end = self.stepper.step(heights[0] + heights[1], step)
             except StepError as error:
                 return self.step_not_settled(error, time_now)
             self._note(step, heights, end)
@@ -161,11 +157,6 @@ class Run:
             if keep is not None:
                 keep(self.snapshot())
         return Status(kind="converged")
-
-    def _moved(self, step: int) -> tuple[float, float] | None:
-        """Return the distances of both surfaces until a step [a_x]; None at constant speeds."""
-        travelled = self.schedule.travelled
-        return None if travelled is None else (travelled[1, step], travelled[2, step])
 
     def _note(self, step: int, heights: tuple[Array, Array], end: StepEnd | None) -> None:
         """Record a step; at time zero it has no cycles."""
@@ -208,8 +199,8 @@ class Run:
             fields={
                 "pressure": self.level.film.p,
                 "asperity": self.level.film.asperity,
-                "mass": self.stepper.now,
-                "mass_before": self.stepper.before,
+                "mass": self.stepper.oil.now,
+                "mass_before": self.stepper.oil.before,
                 "pressure_changes": self.stepper.predictor.past,
                 "excess": self.stepper.squeeze.past,
                 **self.stepper.solver.coupling.pack(self.stepper.solver.levels),
@@ -225,11 +216,12 @@ class Run:
         """
         level, fields = self.level, dict(snapshot.fields)
         self._check(snapshot)
-        self.stepper.now, self.stepper.before = fields.pop("mass"), fields.pop("mass_before")
+        oil = self.stepper.oil
+        oil.now, oil.before = fields.pop("mass"), fields.pop("mass_before")
         self.stepper.predictor.past = fields.pop("pressure_changes")
         self.stepper.squeeze.past = fields.pop("excess")
-        oil, asperity = fields.pop("pressure"), fields.pop("asperity")
-        level.set_state(oil, snapshot.rigid_approach, asperity)
+        pressure, asperity = fields.pop("pressure"), fields.pop("asperity")
+        level.set_state(pressure, snapshot.rigid_approach, asperity)
         self.stepper.choose(snapshot.setting)
         self.stepper.solver.coupling.unpack(self.stepper.solver.levels, fields)
         self.record, self.clock.before = snapshot.record, snapshot.cost

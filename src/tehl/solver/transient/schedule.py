@@ -9,12 +9,11 @@ from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.course import LARGEST_FACTOR
 from tehl.contact.moment import Moment, courses_of, moment_at
+from tehl.contact.transient import MOTION
 from tehl.estimate.scaling import ScaledProblem
 
 NODES_PER_STEP = 4
 """Nodes of Gauss per step for the distances: their error is of eighth order in the step."""
-SIGNED = ("entrainment_speed", "slide_roll_ratio", "sliding_speed")
-"""Keys of the motion, whose values may be negative."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -29,10 +28,18 @@ class Schedule:
     """Distances of the mean motion and of both surfaces since the start, (3, steps + 1) [a_x]; None
     where all move as the contact states."""
 
-    @property
-    def reverses(self) -> bool:
-        """Whether the entrainment turns."""
-        return min(moment.speed for moment in self.moments) < 0.0
+    def places(self, step: int) -> tuple[float, float] | None:
+        """Return the distances of both surfaces until a step [a_x]; None if of constant speeds."""
+        if self.travelled is None:
+            return None
+        return float(self.travelled[1, step]), float(self.travelled[2, step])
+
+    def moved(self, step: int) -> tuple[float, float] | None:
+        """Return the distances of both surfaces in a step [a_x]; None if of constant speeds."""
+        if self.travelled is None:
+            return None
+        first, second = self.travelled[1:, step] - self.travelled[1:, step - 1]
+        return float(first), float(second)
 
     def passed(self, step: int) -> tuple[float, float] | None:
         """Return the distances of the mean motion in the last step and in the last two [a_x].
@@ -71,6 +78,11 @@ def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
             f"transient.entrainment_speed = {moments[0].speed:g} at 0 s: a run starts from a "
             "steady film, so its first speed must be positive"
         )
+    if problem.thermal is not None and not min(moments[0].speeds) > 0.0:
+        raise InputError(
+            "transient: a surface stands still or moves against x at 0 s, too slow for the steady "
+            "heat of its start; begin where both surfaces move along x"
+        )
     stated = moment_at(problem.model_copy(update={"transient": None}), 0.0)
     constant = all((one.speed, one.sliding) == (stated.speed, stated.sliding) for one in moments)
     travelled = None if constant else _travelled(scaled, step, number)
@@ -79,9 +91,9 @@ def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
 
 def _check(key: str, value: float, time: float) -> None:
     """Check a value of a formula or table, over that of the contact."""
-    is_possible = math.isfinite(value) and (key in SIGNED or value > 0.0)
+    is_possible = math.isfinite(value) and (key in MOTION or value > 0.0)
     if not (is_possible and abs(value) <= LARGEST_FACTOR):
-        what = "finite" if key in SIGNED else "positive"
+        what = "finite" if key in MOTION else "positive"
         raise InputError(
             f"transient.{key} = {value:g} at {time:.4g} s: must be {what} and at most "
             f"{LARGEST_FACTOR:g} times that of the contact"

@@ -19,20 +19,18 @@ from typing import Literal
 import numpy as np
 
 from tehl.base.typing import Array
-from tehl.contact.moment import Moment
 from tehl.contact.transient import Transient
-from tehl.operators.reynolds import carried, steady_flux, steady_wedge, step_stencil, upstream
-from tehl.solver.cycle.equations import Equations
+from tehl.operators.reynolds import step_stencil
 from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.film_solver import FilmSolver
-from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import Relaxation
 from tehl.solver.cycle.start import pose_step
 from tehl.solver.cycle.transfers import TRANSFERS
 from tehl.solver.judging.convergence import LEAST_KELVIN, RUNAWAY
 from tehl.solver.physics.boundary_cycle import TouchingCycle
-from tehl.solver.physics.cavity import oil_flow
+from tehl.solver.transient.oil import Lead, Oil, Squeeze
 from tehl.solver.transient.predictor import Predictor
+from tehl.solver.transient.schedule import Schedule
 
 LARGEST_STEP_LOAD_ERROR = 1e-4
 """Load error accepted in a step."""
@@ -73,27 +71,28 @@ class StepError(ArithmeticError):
 class Stepper:
     """Advances a film in time from the steady one of ``solver``.
 
-    ``settings`` are the relaxations to try, fastest first.
+    ``settings`` are the relaxations to try, fastest first; ``schedule`` has load and motion.
     """
 
     def __init__(
-        self, solver: FilmSolver, transient: Transient, settings: Sequence[Relaxation]
+        self,
+        solver: FilmSolver,
+        transient: Transient,
+        settings: Sequence[Relaxation],
+        schedule: Schedule,
     ) -> None:
         self.solver, self.transient, self.settings = solver, transient, settings
-        level = solver.finest
-        self.time_step = transient.stride * level.grid.dx
-        self.steady, self.wedge = _steady_oil(level, solver.options.order)
-        mirrored = steady_wedge(self.steady[:, ::-1], level.grid.dx, solver.options.order)
-        self.against = -mirrored[:, ::-1]  # the wedge where the film moves against x
-        self.now, self.before = self.steady.copy(), self.steady.copy()
+        self.schedule, level = schedule, solver.finest
+        solver.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
+        varying = len(schedule.moments) if schedule.travelled is not None else 0
+        solver.coupling.begin_transient(solver.levels, schedule.step, varying)
+        self.oil = Oil(level, transient.stride, solver.options.order, schedule)
         self.predictor = Predictor(level.pressure, transient.stride)
         # all levels take the same time step, and so the same weight of rho H
         for one in solver.levels:
-            stencil = step_stencil(one.stencil, self.time_step)
+            stencil = step_stencil(one.stencil, schedule.step)
             one.equations = replace(one.equations, stencil=stencil)
         self.equations = level.equations  # with load and gap of the start
-        solver.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
-        solver.coupling.begin_transient(solver.levels, self.time_step)
         self.method: Callable[[], None] = partial(
             cycle, solver.levels, solver.hierarchy.coarsest.step, TRANSFERS, SHAPE
         )
@@ -101,100 +100,61 @@ class Stepper:
         if level.equations.contact_film is not None:
             self.touching = TouchingCycle(solver.levels, self.method)
             self.method = self.touching.step
-        step = (self.time_step, level.grid.dx, transient.stride)
-        excess = solver.coupling.excess()
-        self.squeeze = Squeeze(self.steady, excess, step, solver.options.order)
+        self.squeeze: Squeeze | Lead
+        if varying:
+            self.squeeze = Lead(self._lead(), level.grid.dx, solver.options.order)
+        else:
+            step = (schedule.step, level.grid.dx, transient.stride)
+            excess = solver.coupling.excess()
+            self.squeeze = Squeeze(self.oil.steady, excess, step, solver.options.order)
         self.setting = 0
         self.choose(0)
 
-    def step(
-        self, heights: Array, moment: Moment, passed: tuple[float, float] | None = None
-    ) -> StepEnd:
+    def step(self, heights: Array, number: int) -> StepEnd:
         """Advance by one step.
 
         Parameters
         ----------
         heights : Array
             Of both surfaces together [-], (ny, nx).
-        moment : Moment
-            Load, motion and radius at the new time.
-        passed : (float, float) or None
-            Distances of the mean motion in this step and in the last two [a_x]; None where it
-            moves as the contact states.
+        number : int
+            Of the step, from one on.
 
         Raises
         ------
         StepError
             When no relaxation converges; pressure and film are those of the last attempt.
         """
-        level, history = self.solver.finest, self._history(moment, passed)
-        start = level.state()
-        first, equations = self.setting, self._equations(moment)
-        for number in range(first, len(self.settings)):
-            self.choose(number)
-            if number > first:  # retry: first restore the film from which stresses follow
+        level, coupling = self.solver.finest, self.solver.coupling
+        moment, moved = self.schedule.moments[number], self.schedule.moved(number)
+        if moved is not None:
+            coupling.begin_step(moment, [way / level.grid.dx for way in moved])
+        history, start = self.oil.brought(number), level.state()
+        equations = self.equations.at(moment, self.solver.hierarchy.scaled)
+        first = self.setting
+        for chosen in range(first, len(self.settings)):
+            self.choose(chosen)
+            if chosen > first:  # retry: first restore the film from which stresses follow
                 level.set_state(*start)
                 level.update()
-                self.solver.coupling.revert(self.solver.levels)
+                coupling.revert(self.solver.levels)
             elif self.touching is None:
                 level.set_pressure(self.predictor.onward())
             pose_step(level, history + self.squeeze.onward(), heights, equations)
             try:
-                end = self._solve(self.settings[number].name)
+                end = self._solve(self.settings[chosen].name)
             except ArithmeticError as error:  # also from a kernel, if the film is NaN
-                if number < len(self.settings) - 1:
+                if chosen < len(self.settings) - 1:
                     continue
                 if isinstance(error, StepError):
                     raise
                 raise StepError("diverged", np.nan) from error
-            self.before, self.now = self.now, self._held(moment)
+            self.oil.accept(moment)
             self.predictor.note(level.pressure)
             self.squeeze.advance()
-            self.solver.coupling.advance(self.solver.levels)
+            coupling.advance(self.solver.levels)
             return end
         raise StepError("stalled", np.inf)
-
-    def _history(self, moment: Moment, passed: tuple[float, float] | None) -> Array:
-        """Return the known terms of wedge and squeeze, (ny, nx).
-
-        The mass of the steady film keeps its own wedge, whatever the stride; only the difference to
-        it is differentiated along the motion.
-        """
-        steady, wedge, level = self.steady, self.wedge, self.solver.finest
-        steps = (float(self.transient.stride), 2.0 * self.transient.stride)
-        if passed is not None:
-            spacing = level.grid.dx
-            steps = passed[0] / spacing, passed[1] / spacing
-            if moment.speed < 0.0 and not level.stencil.conserves:
-                wedge = self.against
-            wedge = moment.speed * wedge
-        limited = passed is not None and level.stencil.conserves > 0
-        last = 2.0 * carried(self.now - steady, steps[0], limited=limited)
-        before = 0.5 * carried(self.before - steady, steps[1], limited=limited)
-        return (last - before + 1.5 * steady) / self.time_step - wedge
-
-    def _equations(self, moment: Moment) -> Equations:
-        """Return the equations of the finest level at a moment."""
-        return self.equations.at(moment, self.solver.hierarchy.scaled)
-
-    def _held(self, moment: Moment) -> Array:
-        """Return the oil at each node; on the edges where it enters that of the steady film.
-
-        Where the film moves against x the supply enters at the other edge.
-        """
-        level = self.solver.finest
-        held = level.cavity.held(level)
-        if level.stencil.conserves:
-            starved = level.film.partial[:, 0] > 0
-            held[starved, 0] = self.steady[starved, 0]
-            outlet, last = (-1, -2) if moment.speed > 0.0 else (0, 1)
-            held[:, outlet] = np.minimum(held[:, outlet], held[:, last])
-            if moment.speed < 0.0:
-                full = level.film.rho[:, -1] * level.film.h[:, -1]
-                held[:, -1] = np.minimum(full, level.film.layer)
-            for edge in level.grid.edge_rows:
-                held[edge] = self.steady[edge]
-        return held
 
     def choose(self, number: int) -> None:
         """Set the relaxation, with at least the threshold of dipoles that the time step needs."""
@@ -231,98 +191,24 @@ class Stepper:
                 return StepEnd(cycles=number, change=change, load_error=error, smoother=name)
         raise StepError("stalled", change)
 
+    def _lead(self) -> Array | None:
+        """Return the flux that leads that of the mean motion, (ny, nx); None without."""
+        lead = self.solver.coupling.lead()
+        return None if lead is None else lead * self.solver.finest.film.h
+
     def _follow_density(self) -> None:
-        """Update the squeeze for the densities at the last temperatures."""
-        level, excess = self.solver.finest, self.solver.coupling.excess()
+        """Update what follows from the densities at the last temperatures."""
+        level, coupling = self.solver.finest, self.solver.coupling
         history = level.sources.history
-        if excess is None or history is None:
+        if coupling.state is None or history is None:
             return
-        more = self.squeeze.update(excess * level.film.rho * level.film.h)
+        if isinstance(self.squeeze, Lead):
+            now = self._lead()
+        else:
+            excess = coupling.excess()
+            now = None if excess is None else excess * level.film.rho * level.film.h
+        if now is None:
+            return
+        more = self.squeeze.update(now)
         history += more
         level.sources.reynolds -= more
-
-
-def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
-    """Return oil and upstream difference of its flux in a steady film, (ny, nx) each [-]."""
-    if not level.stencil.conserves:
-        mass = level.film.rho * level.film.h
-        if level.equations.contact_film is not None:
-            return mass, steady_flux(level.film, mass, level.grid.dx, order)
-        return mass, steady_wedge(mass, level.grid.dx, order)
-    held, _ = oil_flow(level)
-    for edge in level.grid.edge_rows:  # nothing is solved there
-        held[edge] = np.minimum(held[edge], level.film.layer[edge])
-    return held, steady_flux(level.film, held, level.grid.dx, order)
-
-
-class Squeeze:
-    """Correction of the squeeze of heated films: subtracts dq/dt with q = (rho* - rho_e) H.
-
-    A heated film carries rho* H and stores rho_e H (docs/theory/numerics-thermal.md),
-
-        d(rho* H)/dx + d(rho_e H)/dt = Poiseuille flow,
-
-    but the step differentiates rho* H along the mean motion, which includes d(rho* H)/dt. Where
-    layers of the film are stiffer than others it moves at rho*/rho_e of the mean speed.
-
-    The derivative is second-order backward. At a fixed place it is stable if the film is slower
-    than the mean motion (q < 0); for a faster one (q > 0) dq/dt is the derivative along the motion
-    less the upstream derivative along x.
-
-    Parameters
-    ----------
-    mass : (ny, nx) array
-        rho* H of the steady film [-].
-    excess : (ny, nx) array or None
-        (rho* - rho_e)/rho*; None if it is always zero.
-    step : (float, float, int)
-        Time step [a_x / u_m], mesh width along x [a_x], and mesh widths per step.
-    wedge_order : int
-        Order of the upstream difference along x.
-    """
-
-    def __init__(
-        self, mass: Array, excess: Array | None, step: tuple[float, float, int], wedge_order: int
-    ) -> None:
-        (self.time_step, self.spacing, self.stride), self.wedge_order = step, wedge_order
-        self.steady = mass[:0] if excess is None else excess * mass
-        self.past = np.stack([self.steady, self.steady])
-        self.now, self.rate = self.steady, np.zeros_like(self.steady)
-
-    def onward(self) -> Array | float:
-        """Return dq/dt at the start of a step, with q extrapolated linearly in time."""
-        if not len(self.steady):
-            return 0.0
-        self.now = 2.0 * self.past[0] - self.past[1]
-        self.rate = self._rate(self.now)
-        return self.rate
-
-    def update(self, excess: Array) -> Array:
-        """Set q of the present film, (ny, nx); return the change of dq/dt."""
-        rate = self._rate(excess)
-        more = rate - self.rate
-        self.now, self.rate = excess, rate
-        return more
-
-    def advance(self) -> None:
-        """Accept the present q as the previous one of the next step."""
-        self.past[1] = self.past[0]
-        self.past[0] = self.now
-
-    def _rate(self, now: Array) -> Array:
-        """Return dq/dt of the present q."""
-        last, before = self.past
-        # q < 0: derivative in time at a fixed place
-        slow = 1.5 * _part(now, -1) - 2.0 * _part(last, -1) + 0.5 * _part(before, -1)
-        # q > 0: along the motion, less the derivative along x
-        start = _part(self.steady, 1)  # its wedge is in the steady film
-        now, last, before = (_part(q, 1) - start for q in (now, last, before))
-        fast = 1.5 * now - 2.0 * upstream(last, self.stride)
-        fast += 0.5 * upstream(before, 2 * self.stride)
-        along = steady_wedge(now, self.spacing, self.wedge_order)
-        return (slow + fast) / self.time_step - along
-
-
-def _part(excess: Array, sign: int) -> Array:
-    """Return the positive or the negative part."""
-    return np.maximum(excess, 0.0) if sign > 0 else np.minimum(excess, 0.0)

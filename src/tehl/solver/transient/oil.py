@@ -1,0 +1,201 @@
+"""Oil that former films bring to a time step: its mass along the mean motion, and corrections."""
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.contact.moment import Moment
+from tehl.operators.reynolds import carried, steady_flux, steady_wedge, upstream
+from tehl.solver.cycle.level import Level
+from tehl.solver.physics.cavity import oil_flow
+from tehl.solver.transient.schedule import Schedule
+
+
+class Oil:
+    """Masses rho H of the last two films, and what they bring to the next.
+
+    Parameters
+    ----------
+    level : Level
+        The finest one, with the steady film and its stencil.
+    stride, order : int
+        Mesh widths that the motion of the contact passes per step, and order of the steady wedge.
+    schedule : Schedule
+        Motion and time step.
+    """
+
+    def __init__(self, level: Level, stride: int, order: int, schedule: Schedule) -> None:
+        self.level, self.stride, self.schedule = level, stride, schedule
+        self.steady, self.wedge = _steady_oil(level, order)
+        mirrored = steady_wedge(self.steady[:, ::-1], level.grid.dx, order)
+        self.against = -mirrored[:, ::-1]  # the wedge where the film moves against x
+        self.now, self.before = self.steady.copy(), self.steady.copy()
+
+    def brought(self, number: int) -> Array:
+        """Return the known terms of wedge and squeeze in a step, (ny, nx).
+
+        The mass of the steady film keeps its own wedge, whatever the stride; only the difference to
+        it is differentiated along the motion.
+        """
+        steady, wedge, passed = self.steady, self.wedge, self.schedule.passed(number)
+        conserves = self.level.stencil.conserves > 0
+        steps = float(self.stride), 2.0 * self.stride
+        if passed is not None:
+            speed, spacing = self.schedule.moments[number].speed, self.level.grid.dx
+            steps = passed[0] / spacing, passed[1] / spacing
+            wedge = speed * (self.against if speed < 0.0 and not conserves else wedge)
+        limited = passed is not None and conserves
+        last = 2.0 * carried(self.now - steady, steps[0], limited=limited)
+        before = 0.5 * carried(self.before - steady, steps[1], limited=limited)
+        return (last - before + 1.5 * steady) / self.schedule.step - wedge
+
+    def accept(self, moment: Moment) -> None:
+        """Take the oil of the present film; on the edges where it enters that of the steady one.
+
+        Where the film moves against x the supply enters at the other edge.
+        """
+        level, film = self.level, self.level.film
+        held = level.cavity.held(level)
+        if level.stencil.conserves:
+            starved = film.partial[:, 0] > 0
+            held[starved, 0] = self.steady[starved, 0]
+            outlet, last = (-1, -2) if moment.speed > 0.0 else (0, 1)
+            held[:, outlet] = np.minimum(held[:, outlet], held[:, last])
+            if moment.speed < 0.0:
+                held[:, -1] = np.minimum(film.rho[:, -1] * film.h[:, -1], film.layer)
+            for edge in level.grid.edge_rows:
+                held[edge] = self.steady[edge]
+        self.before, self.now = self.now, held
+
+
+def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
+    """Return oil and upstream difference of its flux in a steady film, (ny, nx) each [-]."""
+    if not level.stencil.conserves:
+        mass = level.film.rho * level.film.h
+        if level.equations.contact_film is not None:
+            return mass, steady_flux(level.film, mass, level.grid.dx, order)
+        return mass, steady_wedge(mass, level.grid.dx, order)
+    held, _ = oil_flow(level)
+    for edge in level.grid.edge_rows:  # nothing is solved there
+        held[edge] = np.minimum(held[edge], level.film.layer[edge])
+    return held, steady_flux(level.film, held, level.grid.dx, order)
+
+
+class Squeeze:
+    """Correction of the squeeze of heated films: subtracts dq/dt with q = (rho* - rho_e) H.
+
+    A heated film carries rho* H and stores rho_e H (docs/theory/numerics-thermal.md),
+
+        d(rho* H)/dx + d(rho_e H)/dt = Poiseuille flow,
+
+    but the step differentiates rho* H along the mean motion, which includes d(rho* H)/dt. Where
+    layers of the film are stiffer than others it moves at rho*/rho_e of the mean speed.
+
+    The derivative is second-order backward. At a fixed place it is stable if the film is slower
+    than the mean motion (q < 0); for a faster one (q > 0) dq/dt is the derivative along the motion
+    less the upstream derivative along x.
+
+    Parameters
+    ----------
+    mass : (ny, nx) array
+        rho* H of the steady film [-].
+    excess : (ny, nx) array or None
+        (rho* - rho_e)/rho*; None if it is always zero.
+    step : (float, float, int)
+        Time step [a_x / u_m], mesh width along x [a_x], and mesh widths per step.
+    wedge_order : int
+        Order of the upstream difference along x.
+    """
+
+    def __init__(
+        self, mass: Array, excess: Array | None, step: tuple[float, float, int], wedge_order: int
+    ) -> None:
+        (self.time_step, self.spacing, self.stride), self.wedge_order = step, wedge_order
+        self.steady = mass[:0] if excess is None else excess * mass
+        self.past = np.stack([self.steady, self.steady])
+        self.now, self.rate = self.steady, np.zeros_like(self.steady)
+
+    def onward(self) -> Array | float:
+        """Return dq/dt at the start of a step, with q extrapolated linearly in time."""
+        if not len(self.steady):
+            return 0.0
+        self.now = 2.0 * self.past[0] - self.past[1]
+        self.rate = self._rate(self.now)
+        return self.rate
+
+    def update(self, excess: Array) -> Array:
+        """Set q of the present film, (ny, nx); return the change of dq/dt."""
+        rate = self._rate(excess)
+        more = rate - self.rate
+        self.now, self.rate = excess, rate
+        return more
+
+    def advance(self) -> None:
+        """Accept the present q as the previous one of the next step."""
+        self.past[1] = self.past[0]
+        self.past[0] = self.now
+
+    def _rate(self, now: Array) -> Array:
+        """Return dq/dt of the present q."""
+        last, before = self.past
+        # q < 0: derivative in time at a fixed place
+        slow = 1.5 * _part(now, -1) - 2.0 * _part(last, -1) + 0.5 * _part(before, -1)
+        # q > 0: along the motion, less the derivative along x
+        start = _part(self.steady, 1)  # its wedge is in the steady film
+        now, last, before = (_part(q, 1) - start for q in (now, last, before))
+        fast = 1.5 * now - 2.0 * upstream(last, self.stride)
+        fast += 0.5 * upstream(before, 2 * self.stride)
+        along = steady_wedge(now, self.spacing, self.wedge_order)
+        return (slow + fast) / self.time_step - along
+
+
+def _part(excess: Array, sign: int) -> Array:
+    """Return the positive or the negative part."""
+    return np.maximum(excess, 0.0) if sign > 0 else np.minimum(excess, 0.0)
+
+
+class Lead:
+    """The same of films whose motion varies: they carry rho_e H, of the oil that they store.
+
+    The flux by the motion of both surfaces leads that of the mean motion u by q = F H - u rho_e H,
+    with F = int rho (u_1 + ...) d zeta: its difference along x is subtracted. It is small where the
+    oil is nearly the same across the film, and does not vanish with u where the surfaces slide.
+
+    Parameters
+    ----------
+    lead : (ny, nx) array or None
+        q of the steady film [-]; None if it is always zero.
+    spacing, wedge_order : float, int
+        Mesh width along x [a_x], and order of the upstream difference of the steady film.
+    """
+
+    def __init__(self, lead: Array | None, spacing: float, wedge_order: int) -> None:
+        self.steady = np.zeros((0, 0)) if lead is None else lead
+        self.own = self.steady if lead is None else steady_wedge(lead, spacing, wedge_order)
+        self.spacing = spacing
+        self.past = np.stack([self.steady, self.steady])
+        self.now, self.rate = self.steady, -self.own
+
+    def onward(self) -> Array | float:
+        """Return -dq/dx at the start of a step, with q extrapolated linearly in time."""
+        if not self.steady.size:
+            return 0.0
+        self.now = 2.0 * self.past[0] - self.past[1]
+        self.rate = self._rate(self.now)
+        return self.rate
+
+    def update(self, lead: Array) -> Array:
+        """Set q of the present film, (ny, nx); return the change of -dq/dx."""
+        rate = self._rate(lead)
+        more = rate - self.rate
+        self.now, self.rate = lead, rate
+        return more
+
+    def advance(self) -> None:
+        """Accept the present q as the previous one of the next step."""
+        self.past[1] = self.past[0]
+        self.past[0] = self.now
+
+    def _rate(self, lead: Array) -> Array:
+        """Return -dq/dx: the steady film keeps its own difference, the change has a central one."""
+        change = np.gradient(lead - self.steady, self.spacing, axis=1)
+        return np.asarray(-self.own - change)
