@@ -1,5 +1,7 @@
 """Load, speed and radius that change in time: films of another program, steady ones, oil."""
 
+import tomllib
+
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
@@ -10,7 +12,9 @@ from tehl.api.results import TransientResult
 from tehl.contact.moment import courses_of, moment_at
 from tehl.contact.options import Domain, Options
 from tehl.estimate.scaling import scales
+from tehl.io.templates import template_text
 from tehl.operators.reynolds import carried
+from tehl.operators.trail import VaryingTrail
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient.run import Run
 from tests.reference import moes_contact, read
@@ -118,9 +122,7 @@ def test_oil_is_conserved_through_a_reversal():
         assert passed is not None
         came = [
             part * carried(one - oil.steady, way / spacing, limited=True)
-            for part, one, way in zip(
-                (2.0, -0.5), (oil.now, oil.before), passed, strict=True
-            )
+            for part, one, way in zip((2.0, -0.5), (oil.now, oil.before), passed, strict=True)
         ]
         run.stepper.step(np.zeros(run.level.grid.shape), step)
         gained = (1.5 * (oil.now - oil.steady) - sum(came)) / time_step
@@ -185,3 +187,66 @@ MISTAKES = [
 def test_what_cannot_be_is_one_sentence(transient, words):
     with pytest.raises((InputError, ValueError), match=words):
         solve_transient(line(20, 10, transient=transient), Options(points=65))
+
+
+def test_a_surface_keeps_its_heat_wherever_it_goes():
+    """A stripe of the surface takes up a constant flux while it moves on, stops and comes back."""
+    x, step, steps = np.linspace(-3.0, 3.0, 241), 0.02, 60
+
+    def stripe(place: float) -> np.ndarray:
+        return np.exp(-(((x - place) / 0.4) ** 2))[:, None]
+
+    nodes = [2.0 * np.cos(np.pi * n / steps) for n in range(steps)]
+    trail, place = VaryingTrail(0.0 * stripe(0.0), step, 1.0, (steps, 0)), -0.5
+    for moved in nodes:
+        trail.move(moved)
+        place += moved * (x[1] - x[0])
+        past, flux = trail.update(stripe(place)), stripe(place)
+        trail.advance()
+    time = step * steps
+    rise = 4.0 / 3.0 * (time**1.5 - (time - step) ** 1.5) / step  # the flux begins within a step
+    np.testing.assert_allclose(past + trail.near * flux, rise * stripe(place), atol=2e-4)
+    assert place == pytest.approx(-0.5 + 2.0 * (x[1] - x[0]))
+
+
+ROLLER = tomllib.loads(template_text("line"))
+ROLLER["contact"]["slide_roll_ratio"] = 0.4
+ROLLER["lubricant"]["viscosity"] |= {"gamma": 0.04, "reference_temperature": 333.0}
+ROLLER["lubricant"] |= {"conductivity": 0.14, "heat_capacity": 2000.0}
+ROLLER["thermal"] = {"temperature": 333.0}
+
+
+def heated(end: float, right: float, **transient: object) -> TransientResult:
+    """Return the run of a heated roller over ``end`` half-widths; times are in these."""
+    units = scales(ContactProblem.model_validate(ROLLER))
+    unit = units.half_width_x / units.speed
+    tables = {
+        key: [[time * unit, value] for time, value in rows] for key, rows in transient.items()
+    }
+    tables |= {"duration": end * unit, "frames": 0}
+    case = ContactProblem.model_validate(ROLLER | {"transient": tables})
+    return solve_transient(case, Options(points=129, domain=Domain(x=(-3.5, right))))
+
+
+def test_heat_of_a_speed_that_hardly_changes_is_that_of_a_constant_one():
+    load = [[0.0, 1.0], [1.5, 1.2]]
+    plain = heated(3.0, 1.8, load=load)
+    varied = heated(3.0, 1.8, load=load, entrainment_speed=[[0.0, 1.0], [9.0, 1.0 + 1e-7]])
+    assert plain.status.converged
+    for name, error in (("film_central", 2e-3), ("film_minimum", 2e-3), ("traction", 2e-3)):
+        wanted = getattr(plain.history, name)
+        np.testing.assert_allclose(getattr(varied.history, name), wanted, rtol=error)
+
+
+def test_a_heated_film_turns():
+    """Where the entrainment stops sliding alone heats the film; the new film is thin at first."""
+    turn, slide = [[0.5, 1.0], [2.5, -1.0]], [[0.0, 0.4]]
+    run = heated(7.5, 3.5, entrainment_speed=turn, sliding_speed=slide)
+    assert run.status.converged
+    history = run.history
+    stop = int(np.argmin(np.abs(history.time / history.time[-1] - 1.5 / 7.5)))
+    assert history.temperature_rise[stop:].max() > 1.2 * history.temperature_rise[0]
+    # the surfaces that come back are still warm
+    assert 0.8 < history.film_central[-1] / history.film_central[0] < 1.0
+    assert history.film_central.min() < 0.7 * history.film_central[0]
+    assert history.traction[-1] == pytest.approx(history.traction[0], rel=0.1)

@@ -193,15 +193,15 @@ class FilmState:
         self.update_surfaces()
         return change
 
-    def begin_transient(self, time_step: float, varying_steps: int = 0) -> None:
+    def begin_transient(self, time_step: float, varying: tuple[int, int] | None = None) -> None:
         """Make the energy equation transient, with the present film as steady history.
 
         Parameters
         ----------
         time_step : float
             In units of a_x / u_m [-].
-        varying_steps : int
-            Steps of a run in which the surfaces change their speeds; zero if they do not.
+        varying : (int, int) or None
+            Where the surfaces change their speeds, the ``length`` of `VaryingTrail`.
         """
         nx, ny = self.fields.p.shape
         shape = (nx, self.film.heat.layers, ny)
@@ -210,8 +210,8 @@ class FilmState:
         make: MakeTrail
         for side, surface in zip(self.film.sides, self.surfaces, strict=True):
             moved = side.speed / scales.speed * time_step / self.grid.dx  # nodes per step
-            if varying_steps:
-                make = partial(VaryingTrail, time_step=time_step, nodes=moved, steps=varying_steps)
+            if varying is not None:
+                make = partial(VaryingTrail, time_step=time_step, nodes=moved, length=varying)
                 factor = replace(side, speed=scales.speed).line_factor(scales, unit)
                 paths.append((side.bulk, factor, make))
             else:

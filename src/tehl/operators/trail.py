@@ -84,16 +84,23 @@ class VaryingTrail:
         Steady flux at the beginning, dimensionless.
     time_step : float
         In units of a_x / u_m.
-    nodes, steps : float, int
-        Mesh widths that the surface moves per step at the beginning, and steps of the run.
+    nodes : float
+        Mesh widths that the surface moves per step at the beginning.
+    length : (int, int)
+        Steps of the run, and nodes beyond either edge to which surfaces go that come back.
     """
 
-    def __init__(self, flux: Array, time_step: float, nodes: float, steps: int) -> None:
-        past = math.ceil(flux.shape[0] / nodes)
+    def __init__(
+        self, flux: Array, time_step: float, nodes: float, length: tuple[int, int]
+    ) -> None:
+        steps, beyond = length
+        self.inside = slice(beyond, beyond + flux.shape[0])
+        wide = np.pad(flux.T, ((0, 0), (beyond, beyond)))
+        past = math.ceil(wide.shape[1] / nodes)
         self.weights = history(steps + past, time_step)
         self.near = self.weights.near
-        self.fluxes = np.repeat(flux.T[None], 3, axis=0)  # now, last and the one before it
-        self.modes = np.zeros((2, len(self.weights.decay), *flux.T.shape))
+        self.fluxes = np.repeat(wide[None], 3, axis=0)  # now, last and the one before it
+        self.modes = np.zeros((2, len(self.weights.decay), *wide.shape))
         self.past, self.present = np.zeros_like(flux), flux.T
         for _ in range(past):
             self.move(nodes)
@@ -110,7 +117,8 @@ class VaryingTrail:
         modes = (decay * self.modes[1] + older * before + newer * last).reshape(count * ny, nx)
         self.modes[0] = carried(modes, nodes, flat=True).reshape(count, ny, nx)
         self.fluxes[0] = carried(last, nodes, flat=True)
-        self.past = (self.weights.next_ * self.fluxes[0] + self.modes[0].sum(axis=0)).T
+        past = self.weights.next_ * self.fluxes[0] + self.modes[0].sum(axis=0)
+        self.past = past[:, self.inside].T
 
     def update(self, flux: Array) -> Array:
         """Return the rise of each node by what it took up before this step, (nx, ny)."""
@@ -120,7 +128,7 @@ class VaryingTrail:
     def advance(self) -> None:
         """Accept the present as the last time level of the next step."""
         self.fluxes[2] = self.fluxes[0]
-        self.fluxes[1] = self.present
+        self.fluxes[1][:, self.inside] = self.present
         self.modes[1] = self.modes[0]
 
     def arrays(self) -> dict[str, Array]:

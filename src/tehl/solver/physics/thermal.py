@@ -207,7 +207,7 @@ class Coupling:
         self.factors = levels[-1].factors
 
     def begin_transient(
-        self, levels: Sequence[Level], time_step: float, varying_steps: int = 0
+        self, levels: Sequence[Level], time_step: float, varying: tuple[int, int] | None = None
     ) -> None:
         """Make the energy equation transient.
 
@@ -217,15 +217,16 @@ class Coupling:
             The coarsest first, with the factors of the steady film.
         time_step : float
             Step [a_x / u_m].
-        varying_steps : int
-            Steps of a run in which the surfaces change their speeds; zero if they do not.
+        varying : (int, int) or None
+            Where the surfaces change their speeds: steps of the run, and nodes beyond either edge
+            to which surfaces go that come back.
         """
-        if self.state is not None and varying_steps:
+        if self.state is not None and varying is not None:
             self.carries_mean = self.thorough = self.state.thorough = True
             self._couple(self.state, levels)
         self.factors = levels[-1].factors
         if self.state is not None and self.state.model.terms.heat:
-            self.state.begin_transient(time_step, varying_steps)
+            self.state.begin_transient(time_step, varying)
 
     def begin_step(self, moment: Moment, nodes: Sequence[float]) -> None:
         """Set the motion of a step.

@@ -41,6 +41,20 @@ class Schedule:
         first, second = self.travelled[1:, step] - self.travelled[1:, step - 1]
         return float(first), float(second)
 
+    def length(self, spacing: float, nodes: int) -> tuple[int, int] | None:
+        """Return steps of the run, and mesh widths by which surfaces come back.
+
+        Parameters
+        ----------
+        spacing, nodes : float, int
+            Mesh width [a_x], and number of nodes along x: farther away heat is as at the last one.
+        """
+        if self.travelled is None:
+            return None
+        ways = self.travelled[1:]
+        back = np.maximum.accumulate(ways, axis=1) - ways
+        return len(self.moments), min(math.ceil(float(back.max()) / spacing), nodes)
+
     def passed(self, step: int) -> tuple[float, float] | None:
         """Return the distances of the mean motion in the last step and in the last two [a_x].
 

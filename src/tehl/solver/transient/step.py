@@ -84,7 +84,7 @@ class Stepper:
         self.solver, self.transient, self.settings = solver, transient, settings
         self.schedule, level = schedule, solver.finest
         solver.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
-        varying = len(schedule.moments) if schedule.travelled is not None else 0
+        varying = schedule.length(level.grid.dx, level.grid.nx)
         solver.coupling.begin_transient(solver.levels, schedule.step, varying)
         self.oil = Oil(level, transient.stride, solver.options.order, schedule)
         self.predictor = Predictor(level.pressure, transient.stride)
@@ -101,7 +101,7 @@ class Stepper:
             self.touching = TouchingCycle(solver.levels, self.method)
             self.method = self.touching.step
         self.squeeze: Squeeze | Lead
-        if varying:
+        if varying is not None:
             self.squeeze = Lead(self._lead(), level.grid.dx, solver.options.order)
         else:
             step = (schedule.step, level.grid.dx, transient.stride)
