@@ -6,6 +6,8 @@ from tehl.base.units import Force, ForcePerLength, Length, Number, quantity
 from tehl.contact.course import SIGNED_SPEED, Course, Stated, course_of
 from tehl.contact.point_contact import PointContact
 
+SLIDING = {"slide_roll_ratio", "sliding_speed"}
+"""Keys of the sliding."""
 SAMPLES = 200
 """Intervals in which a run is sampled before it begins."""
 
@@ -64,6 +66,11 @@ def moments_of(problem: PointContact, duration: float) -> list[Moment]:
         Of the run [s].
     """
     return [moment_at(problem, duration * n / SAMPLES) for n in range(SAMPLES + 1)]
+
+
+def slides_ever(problem: PointContact) -> bool:
+    """Whether the surfaces slide, at least at times."""
+    return problem.slide_roll_ratio != 0.0 or bool(SLIDING & set(courses_of(problem)))
 
 
 def courses_of(problem: PointContact) -> dict[str, Course]:

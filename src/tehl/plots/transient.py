@@ -22,7 +22,7 @@ from tehl.plots.frame import (
     outline,
     span_part,
 )
-from tehl.post.transient import envelope, passing_features
+from tehl.post.transient import distances, envelope, passing_features
 from tehl.post.transient_numbers import why_share_unknown
 from tehl.result.transient import HistoryBars, TransientSolution
 
@@ -150,17 +150,17 @@ def space_time(run: TransientSolution, *, title: bool | None = True) -> Figure:
 
 def _draw_paths(axes: Axes, run: TransientSolution, factor: float) -> None:
     """Draw the paths of points that meet at x = 0 when the first feature is there."""
-    motion, time = run.start.problem.motion, run.history.time
+    time, (mean, first, second) = run.history.time, distances(run)
     half_way = 0.5 * float(time[-1])
     middle = next((passing for _, passing in passing_features(run)), half_way)
-    speeds = {"surface 1": (motion.speed_1, "-"), "surface 2": (motion.speed_2, "--")}
-    if motion.slide_roll_ratio == 0:
-        speeds = {"both surfaces": (motion.speed_1, "-")}
+    ways = {"surface 1": (first, "-"), "surface 2": (second, "--")}
+    if (first == second).all():
+        ways = {"both surfaces": (first, "-")}
     else:
-        speeds["mean"] = (motion.entrainment_speed, ":")
+        ways["mean"] = (mean, ":")
     limits, effects = axes.get_xlim(), outline("0.2", 1.8)
-    for label, (speed, style) in speeds.items():
-        place = speed * (time - middle) * MICRO
+    for label, (way, style) in ways.items():
+        place = (way - np.interp(middle, time, way)) * MICRO
         inside = (place > limits[0]) & (place < limits[1])
         line = axes.plot(place[inside], time[inside] * factor, color="white", ls=style, lw=0.9)[0]
         line.set(label=label, path_effects=effects)

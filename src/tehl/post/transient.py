@@ -11,6 +11,7 @@ from tehl.base.typing import Array
 from tehl.contact.options import Domain
 from tehl.estimate.duration import Part, parts_of
 from tehl.estimate.grid import Grid
+from tehl.estimate.schedule import schedule_of
 from tehl.operators.heights import MovingHeights
 from tehl.post.micro_film import smooth_reference
 from tehl.result.fields import Fields, FilmSummary, SurfaceHeights
@@ -76,14 +77,14 @@ def moving_profiles(
     InputError
         If the surface has several features, or one away from y = 0, and ``start`` is not given.
     """
-    speed, x = run.start.problem.motion.speed_of(surface), run.x
+    x = run.x
     start = _place_of_feature(run, surface) if start is None else start
     reach = run.start.scales.half_width_x if reach is None else reach
     if not reach > 0:
         raise InputError(f"reach = {reach} m: must be positive")
     count = round(reach / (x[1] - x[0]))
     offset = np.linspace(-reach, reach, 2 * max(count, 1) + 1)
-    place = start + speed * run.history.time
+    place = start + distances(run)[surface]
     lines = (run.profiles.pressure, run.profiles.film, getattr(run.profiles, f"height_{surface}"))
     pressure, film, height = (
         np.stack(
@@ -95,6 +96,17 @@ def moving_profiles(
         for lines_in_time in lines
     )
     return MovingProfiles(offset=offset, place=place, pressure=pressure, film=film, height=height)
+
+
+def distances(run: TransientSolution) -> Array:
+    """Return how far mean motion, surface 1 and surface 2 have moved at each step [m], (3, nt)."""
+    start, time = run.start, run.history.time
+    units, motion = start.scales, start.problem.motion
+    step = run.time_step * units.speed / units.half_width_x
+    travelled = schedule_of(start.scaled_problem, step, time.size - 1).travelled
+    if travelled is not None:
+        return np.asarray(units.half_width_x * travelled)
+    return np.outer((motion.entrainment_speed, motion.speed_1, motion.speed_2), time)
 
 
 def _place_of_feature(run: TransientSolution, surface: int) -> float:
@@ -269,7 +281,9 @@ def _heights(run: TransientSolution, frame: int) -> SurfaceHeights | None:
     entrance = problem.transient.entrance if problem.transient.start == "smooth" else None
     units = run.start.scales
     moving = MovingHeights(run.start.scaled_problem, grid, entrance)
-    first, second = moving.at(float(run.history.time[run.frames.step[frame]]))
+    step = run.frames.step[frame]
+    moved = [float(way) / units.half_width_x for way in distances(run)[1:, step]]
+    first, second = moving.at(float(run.history.time[step]), moved)
     return SurfaceHeights(
         surface_1=first * units.film_thickness, surface_2=second * units.film_thickness
     )

@@ -4,6 +4,7 @@ from contextlib import suppress
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
+from tehl.contact.moment import slides_ever
 from tehl.estimate.duration import whole_passing
 from tehl.estimate.scaling import ScaledProblem
 from tehl.post.boundary_contact import largest_patches, touching, why_unknown
@@ -25,7 +26,7 @@ def friction(run: TransientSolution) -> Array | None:
     without = problem.asperities is None and problem.contact_film is None
     if without or (problem.contact_film is not None and why_share_unknown(run)):
         return None
-    slides = problem.slide_roll_ratio != 0.0
+    slides = slides_ever(problem)
     return abs(run.history.traction) + (run.history.solid_friction if slides else 0.0)
 
 

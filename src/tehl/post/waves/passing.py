@@ -7,6 +7,7 @@ import numpy as np
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
+from tehl.contact.transient import MOTION
 from tehl.estimate.wave_theory import amplitude_reduction, nabla_of, waves_of
 from tehl.post.waves.response import Ripple, ripple
 from tehl.result.transient import TransientSolution
@@ -56,6 +57,9 @@ def passing_wave(run: TransientSolution, surface: int, *, x: float = 0.0) -> Pas
         If no wave of the surface passes, if less than a period remains after the wave has reached
         the place, or if there are too few steps in a period.
     """
+    transient = run.start.problem.transient
+    if transient is not None and any(getattr(transient, key) for key in MOTION):
+        raise InputError("the surfaces change their speeds: a wave has no period to fit")
     speed, wave = run.start.problem.motion.speed_of(surface), _wave(run, surface)
     rate = abs(wave.along * speed)
     periods, steps = _periods(run, surface, rate, x)

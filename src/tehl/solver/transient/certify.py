@@ -11,6 +11,7 @@ import numpy as np
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
+from tehl.contact.moment import slides_ever
 from tehl.contact.options import Options, can_be_halved, check_certifiable
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import settled
@@ -194,7 +195,7 @@ def _extremes(run: TransientSolution, end: float) -> dict[str, float]:
     }
     if start.heat is not None:
         found["film_rise_max"] = until_end(history.temperature_rise).max()
-    if start.problem.is_coupled and start.problem.slide_roll_ratio != 0.0:
+    if start.problem.is_coupled and slides_ever(start.problem):
         traction = until_end(history.traction)
         found["traction_extreme"] = traction[np.abs(traction).argmax()]
     return {name: float(value) for name, value in found.items()}

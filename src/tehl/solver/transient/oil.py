@@ -4,10 +4,10 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.contact.moment import Moment
+from tehl.estimate.schedule import Schedule
 from tehl.operators.reynolds import carried, steady_flux, steady_wedge, upstream
 from tehl.solver.cycle.level import Level
 from tehl.solver.physics.cavity import oil_flow
-from tehl.solver.transient.schedule import Schedule
 
 
 class Oil:

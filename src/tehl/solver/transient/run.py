@@ -16,6 +16,7 @@ from tehl.estimate.domain import planned
 from tehl.estimate.duration import misplaced, number_of_steps
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.schedule import schedule_of
 from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import MovingHeights
 from tehl.result.solution import ConvergenceError, Hint, Solution, Status
@@ -27,7 +28,6 @@ from tehl.solver.judging.measures import is_resolved, mid_film_stress, mid_film_
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import Attempt, finest_grid, try_strategies
 from tehl.solver.transient.checks import check_peaks, check_stride, check_waves
-from tehl.solver.transient.schedule import schedule_of
 from tehl.solver.transient.snapshot import ANEW, Record, Snapshot, carried, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
 

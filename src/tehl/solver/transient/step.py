@@ -20,6 +20,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.contact.transient import Transient
+from tehl.estimate.schedule import Schedule
 from tehl.operators.reynolds import step_stencil
 from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.film_solver import FilmSolver
@@ -30,7 +31,6 @@ from tehl.solver.judging.convergence import LEAST_KELVIN, RUNAWAY
 from tehl.solver.physics.boundary_cycle import TouchingCycle
 from tehl.solver.transient.oil import Lead, Oil, Squeeze
 from tehl.solver.transient.predictor import Predictor
-from tehl.solver.transient.schedule import Schedule
 
 LARGEST_STEP_LOAD_ERROR = 1e-4
 """Load error accepted in a step."""
