@@ -236,6 +236,11 @@ def check_transient(problem: PointContact) -> None:
                 f"transient.stride = {transient.stride}, too slow for heat in a transient run: "
                 "take a larger stride, or a smaller slide_roll_ratio"
             )
+    if transient.radius and problem.contact.entrainment_angle != 0.0:
+        raise ValueError(
+            "transient.radius changes that along x, which is none of both axes of an ellipse at an "
+            "angle: leave out contact.entrainment_angle"
+        )
     stated = [getattr(transient, key) for key in COURSES]
     if transient.duration is None and any(isinstance(one, str) for one in stated):
         raise ValueError(

@@ -15,7 +15,7 @@ is exact for the second term.
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import solve_banded
@@ -162,36 +162,30 @@ def far_field(grid: Grid, groups: Groups, speed: float = 1.0) -> "Edges":
         Entrainment speed over that of the contact [-].
     """
     if speed < 0.0:
-        x = (-grid.domain.x[1], -grid.domain.x[0])
-        mirrored = replace(grid, domain=grid.domain.model_copy(update={"x": x}))
-        return AgainstX(far_field(mirrored, groups, -speed))
+        domain = grid.domain
+        x, y = ((-high, -low) for low, high in (domain.x, domain.y))
+        turned = replace(grid, domain=domain.model_copy(update={"x": x, "y": y}))
+        return Turned(far_field(turned, groups, -speed), 1 if grid.mirror else -1)
     groups = replace(groups, lambda_bar=speed * groups.lambda_bar)
     return UpstreamField(grid, groups) if groups.shape is LINE else FarField(grid, groups)
 
 
-class Edges(Protocol):
-    """What an equation needs of the oil outside of its grid."""
+class Turned:
+    """The oil outside where the film moves against x: that of the contact turned by half a turn.
+
+    ``step`` along the rows is -1, or 1 where they hold one half of a symmetric contact.
+    """
+
+    def __init__(self, forwards: "Edges", step: int) -> None:
+        self.forwards, self.turn = forwards, (slice(None, None, step), slice(None, None, -1))
 
     def set_edges(self, pressure: Array, film: Array) -> None:
         """Set the pressure on the edges for a film, (ny, nx)."""
+        self.forwards.set_edges(pressure[self.turn], film[self.turn])
 
     def load(self, film: Array, gap: Array) -> float:
         """Return the integral of P outside the grid [-], for film and undeformed gap."""
-
-
-class AgainstX:
-    """The oil outside where the film moves against x: the mirror image of another."""
-
-    def __init__(self, mirrored: Edges) -> None:
-        self.mirrored = mirrored
-
-    def set_edges(self, pressure: Array, film: Array) -> None:
-        """Set the pressure on the edges for a film, (ny, nx)."""
-        self.mirrored.set_edges(pressure[:, ::-1], film[:, ::-1])
-
-    def load(self, film: Array, gap: Array) -> float:
-        """Return the integral of P outside the grid [-], for film and undeformed gap."""
-        return self.mirrored.load(film[:, ::-1], gap[:, ::-1])
+        return self.forwards.load(film[self.turn], gap[self.turn])
 
 
 class FarField:
@@ -280,3 +274,7 @@ class FarField:
             load_by_film=(higher - lower) / (2.0 * step),
             load_by_rate=-float((self.squeeze_weight / outside).sum()),
         )
+
+
+Edges = FarField | UpstreamField | Turned
+"""The oil outside of a grid."""

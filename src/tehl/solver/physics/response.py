@@ -25,7 +25,7 @@ from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
 
 from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
-from tehl.operators.far_field import EdgeSlopes
+from tehl.operators.far_field import EdgeSlopes, Turned
 from tehl.operators.jacobian import Cavity, flux_difference, jacobian, rows
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.linearised import conductance_slopes
@@ -78,6 +78,7 @@ class FilmResponse:
         self.outside = None
         self.face: tuple[Array, Array, float] | None = None
         if far is not None:
+            assert not isinstance(far, Turned)  # the film is steady
             self.outside = far.slopes(film.h, level.equations.gap)
             edge = (film.p > 0.0).ravel() & ~inner & (self.outside.by_film != 0.0).ravel()
             self.unknown = self.carries = self.unknown | edge
