@@ -256,3 +256,24 @@ def test_a_film_is_softer_than_the_dry_contact_when_slow_and_stiffer_when_fast()
     assert damping[0] == pytest.approx(461.5, rel=1e-2)
     assert stiffness[0] < 49.73 < stiffness[-1]
     assert min(damping) > 0.0
+
+
+@pytest.mark.slow
+def test_a_tooth_has_the_films_of_steady_contacts_along_its_path():
+    found = example("gear_mesh").main()
+    moving, standing = found["run"], found["steady"]
+    assert moving[0, 1] == pytest.approx(standing[0, 1], rel=0.05)  # beside the pitch point
+    assert (abs(moving[0] / standing[0] - 1.0) < 0.15).all()
+    assert moving[3] == pytest.approx(standing[3], abs=2e-3)
+    assert moving[3, 0] > 0.02
+    assert moving[3, -1] < -0.02
+
+
+def test_a_film_that_turns_is_trapped_and_then_mirrored():
+    found = example("reversal").main()
+    before, stop = (found[f"central film {when} [nm]"] for when in ("before", "at the stop"))
+    assert before == pytest.approx(201.6, rel=1e-2)
+    assert 0.9 < stop / before < 1.0
+    assert found["least film [nm]"] < 0.5 * found["minimum film before [nm]"]
+    assert found["time of it after the stop [ms]"] == pytest.approx(0.6, abs=0.1)
+    assert found["mirrored film over the first"] == pytest.approx(1.0, abs=0.02)

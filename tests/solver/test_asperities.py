@@ -22,6 +22,7 @@ from tehl.kernels import properties, reynolds, summits
 from tehl.operators.influence import dense_matrix
 from tehl.operators.line_source import line_rise
 from tehl.operators.summits import asperity_table
+from tehl.operators.trail import Trail
 from tehl.operators.transient_film import Rubbing
 from tehl.plots import asperity_map, pictures_of
 from tehl.post.heat import work_error
@@ -499,7 +500,7 @@ def test_asperities_that_rub_heat_a_transient_film():
 
     x = np.linspace(-2.0, 1.0, 97)
     flux = np.maximum(1.0 - x**2, 0.0)[:, None] * np.ones(8)
-    rubbing = Rubbing(flux, x[1] - x[0], 1.0)
+    rubbing = Rubbing(flux, lambda heat: Trail(heat, x[1] - x[0], 1.0))
     steady = line_rise(flux, x[1] - x[0])
     np.testing.assert_allclose(rubbing.rise(), steady, atol=2e-4 * steady.max())
     rubbing.flux[:] = 0.0  # the surface carries what it took up away, half a width in 16 steps

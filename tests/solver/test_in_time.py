@@ -38,7 +38,10 @@ def changing(points: int, edges: list[float], end: float, **transient: object) -
     return solve_transient(case, Options(points=points, domain=Domain(x=tuple(edges))))
 
 
-@pytest.mark.parametrize("name", CHANGES)
+SLOW = pytest.param("start", marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("name", ["sine", "load", "reverse", SLOW])
 def test_films_are_those_of_another_program(name):
     cited, films = CITED[name], []
     for points in (257, 513) if name in ("start", "reverse") else (129, 257):

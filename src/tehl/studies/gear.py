@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from tehl.base.errors import InputError
-from tehl.base.typing import Array
 
 LEAST_SHARE = 1.0 / 3.0
 """Part of the load of a tooth where it comes into mesh or leaves it; it is linear up to two thirds
@@ -84,9 +83,10 @@ class SpurGears:
 
     @property
     def tip_radii(self) -> tuple[float, float]:
-        """Radii of the tips [m]: addendum of one module, with shift, shortened to keep clearance."""
+        """Radii of the tips [m]: addendum of a module with shift, shortened to keep clearance."""
         half, module = 0.5 * self.module, self.module
         clearance = self._distance - half * sum(self.teeth) - module * sum(self.shift)
+        clearance = min(clearance, 0.0)
         first, second = (
             half * teeth + module * (1.0 + shift) + clearance
             for teeth, shift in zip(self.teeth, self.shift, strict=True)
@@ -200,7 +200,7 @@ class FlatCam:
         load = self.spring[0] + self.spring[1] * lift + self.mass * self.speed**2 * bend
         if not min(radius, load) > 0.0:
             raise InputError(
-                f"at {math.degrees(angle):.3g} degrees the cam has a radius of {radius:.3g} m under "
+                f"at {math.degrees(angle):.3g} degrees the cam has R = {radius:.3g} m under "
                 f"{load:.3g} N: both must be positive"
             )
         return {
@@ -212,7 +212,7 @@ class FlatCam:
 
     def tables(self, reach: float, points: int = 121) -> dict[str, dict[str, Any]]:
         """Return the tables ``contact`` and ``transient`` of a case from -reach to reach [rad]."""
-        angles: Array = np.linspace(-reach, reach, points)
+        angles = np.linspace(-reach, reach, points)
         rows = [self.at(float(angle)) for angle in angles]
         time, start = (angles + reach) / self.speed, rows[0]
         speed = start["entrainment_speed"]
