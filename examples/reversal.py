@@ -3,8 +3,8 @@
 The entrainment of a point contact goes from 1 to -1 in five half-widths of travel (the template
 `reversal`). Interferograms of reciprocating contacts show the same shapes.
 
-**The film is trapped**: when the entrainment stops the oil in the contact is too viscous to leave. The
-plateau stays; its rim, where the oil leaves in all directions, closes to a ring.
+**The film is trapped**: when the entrainment stops the oil in the contact is too viscous to leave.
+The plateau stays; its rim, where the oil leaves in all directions, closes to a ring.
 
 **The new film comes in from the other side** with a front that moves at the mean speed of both
 surfaces. In front of it the rim of the old film is thinnest: least of all film is found shortly
