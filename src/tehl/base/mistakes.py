@@ -371,6 +371,7 @@ _WORDING = (
     ("valid ", ""),
     (", unable to parse .*|, got a number with a fractional part", ""),
     ("items after validation.*", "numbers"),
+    ("1 item after validation.*", "one number"),
 )
 _SENTENCES = {
     "extra_forbidden": _unknown_key,

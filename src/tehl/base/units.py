@@ -326,6 +326,9 @@ TemperatureCoefficient = Annotated[
 SignedTemperatureCoefficient = Annotated[
     float, Quantity("an inverse temperature", "1/K", '"-7e-4 1/K"', "any")
 ]
+SolidExpansion = Annotated[
+    float, Quantity("a thermal expansion", "1/K", '"12e-6 1/K"', "non-negative", most=1e-3)
+]
 Density = Annotated[float, Quantity("a density", "kg/m^3", '"890 kg/m^3"')]
 Conductivity = Annotated[float, Quantity("a thermal conductivity", "W/m/K", '"0.14 W/m/K"')]
 HeatCapacity = Annotated[float, Quantity("a heat capacity per mass", "J/kg/K", '"2000 J/kg/K"')]

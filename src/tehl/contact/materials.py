@@ -13,8 +13,8 @@ from tehl.base.units import (
     Pressure,
     SolidConductivity,
     SolidDensity,
+    SolidExpansion,
     SolidHeatCapacity,
-    TemperatureCoefficient,
 )
 
 
@@ -29,7 +29,7 @@ class Solid(Table):
     heat_capacity: SolidHeatCapacity | None = None
     conductivity: SolidConductivity | None = None
     """Thermal properties [kg/m^3], [J/kg/K], [W/m/K]; only needed when heat is computed."""
-    expansion: TemperatureCoefficient | None = None
+    expansion: SolidExpansion | None = None
     """Thermal expansion of a length [1/K]: only needed for thermal stress."""
     hardness: Pressure | None = None
     """Of indentation [Pa]: summits that would carry more yield."""
@@ -108,7 +108,7 @@ class SolidByName(Table):
     density: SolidDensity | None = None
     heat_capacity: SolidHeatCapacity | None = None
     conductivity: SolidConductivity | None = None
-    expansion: TemperatureCoefficient | None = None
+    expansion: SolidExpansion | None = None
     hardness: Pressure | None = None
     transparent: bool | None = None
     name: str | None = None

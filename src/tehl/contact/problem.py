@@ -16,8 +16,8 @@ from tehl.base.units import (
     Quantity,
     SolidConductivity,
     SolidDensity,
+    SolidExpansion,
     SolidHeatCapacity,
-    TemperatureCoefficient,
     quantity,
 )
 from tehl.contact.bodies import reduced_radius
@@ -337,7 +337,7 @@ def check_stress(problem: PointContact) -> None:
         if (problem.surface_1, problem.surface_2)[body - 1].material.expansion is None:
             raise ValueError(
                 f"surface_{body}.material.expansion is missing, which stress.thermal needs: give "
-                f'{quantity(TemperatureCoefficient).name} such as "12e-6 1/K"'
+                f"{quantity(SolidExpansion).name} such as {quantity(SolidExpansion).example}"
             )
 
 

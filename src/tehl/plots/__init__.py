@@ -102,7 +102,7 @@ PICTURES: Pictures = {
 """Pictures of every steady result."""
 OF_A_LINE = (
     *("centre_lines", "rough_centre_line", "film_distribution", "temperature_section"),
-    *("stress", "residuals", "history", "space_time", "moments"),
+    *("dynamics", "stress", "moving_stress", "residuals", "history", "space_time", "moments"),
 )
 """Pictures of a line contact: curves along x and sections."""
 INTERFEROGRAMS: Pictures = {

@@ -51,9 +51,10 @@ def dynamics_curves(
         one.fill_between(hertz, *_band(value, bar, shown), color=colour, alpha=0.2, lw=0)
         one.set(xscale="log", ylabel=label)
         one.grid(lw=0.3)
-    dry = 1.5 * result.load / result.problem.hertz.approach * _PER_UM  # load ~ approach^1.5
-    axes[0].axhline(dry, color="0.4", ls="--", lw=1.0, label="dry contact")
-    axes[0].legend(**PLAIN)
+    if not result.problem.contact.is_line:  # load ~ approach^1.5
+        dry = 1.5 * result.load / result.problem.hertz.approach * _PER_UM
+        axes[0].axhline(dry, color="0.4", ls="--", lw=1.0, label="dry contact")
+    axes[0].legend(**PLAIN, title="of one metre" if result.problem.contact.is_line else None)
     axes[1].set_ylim(bottom=min(0.0, 1.1 * float(film.damping.min())))
     axes[1].set_xlabel("frequency [Hz]")
     omega = 2.0 * np.pi * result.scales.half_width_x / result.scales.speed

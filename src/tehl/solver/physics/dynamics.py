@@ -31,6 +31,9 @@ LEAST_FRONT_BARS = 0.5, 20.0
 """Least bars behind a meniscus of stiffness and damping, over themselves and the mesh width: two
 grids may agree by chance. Stiffnesses of two contacts (r = 0.4 and 0.6) differ from those of steady
 films by up to 0.4, dampings of one grid and the next by up to 12 mesh widths."""
+LARGEST_STEP = 0.5 * np.pi
+"""Frequency times the mesh width [-] beyond which a wave of oil has less than four mesh widths: the
+bars are then the values themselves."""
 BAR_CYCLES = 12
 """Cycles on the coarser grid of the error bars, from the film of the finer one."""
 
@@ -93,6 +96,11 @@ def film_dynamics(run: FilmSolver, settings: Dynamics) -> FilmDynamics:
             np.maximum(bars[0], least[0] * np.abs(stiffness)),
             np.maximum(bars[1], least[1] * np.abs(damping)),
         )
+    unresolved = omegas * near.dx > LARGEST_STEP
+    bars = (
+        np.where(unresolved, np.maximum(bars[0], np.abs(stiffness)), bars[0]),
+        np.where(unresolved, np.maximum(bars[1], np.abs(damping)), bars[1]),
+    )
     by_speed = in_si(found.load_by_speed, force / scales.speed)
     rolling = in_si(found.rolling_by_approach, tangent / film)
     rolling_by_speed = in_si(found.rolling_by_speed, tangent / scales.speed)
