@@ -277,6 +277,7 @@ def test_a_limiting_stress_that_is_not_reached_stays_open(tmp_path, case):
         ("film [N];u_m [m/s]\n80;1\n90;2\n", "alpha", "has the unit of a force"),
         ("film [nm];nu_40 [mm^2/s]\n80;46\n90;50\n", "alpha", "the fit is for one oil"),
         ("film [nm]\n80\n", "alpha", "1 measured values for 1 constants: at least 2"),
+        ("film [m]\n80\n90\n", "alpha", "more than 0.1 mm; check the unit"),
         ("film [nm]\n80\n90\n", "alfa", "did you mean alpha?"),
         ("film [nm]\n80\n90\n", "alpha,alpha", "name each constant once"),
         ("traction\n.03\n.04\n", "eyring_stress,limiting_slope", "an oil has one shear law"),

@@ -69,6 +69,8 @@ KINDS = {
     ),
 }
 """What may be measured, by name."""
+LARGEST = {"film": 1e-4, "traction": 1.0}
+"""What is beyond any film [m] and traction [-]: units or columns are taken for others."""
 _NOISE = "noise"
 _WORDS = {word: kind for kind, one in KINDS.items() for word in one.words.split()}
 _WORDS |= {
@@ -184,6 +186,9 @@ def _point(
                 value = one.read.parse(cell)
             except ValueError as error:
                 raise InputError(f"{kind} = {cell!r}: {error}") from None
+            if not value <= LARGEST[kind]:
+                most = "0.1 mm" if kind == "film" else f"{LARGEST[kind]:g}"
+                raise InputError(f"{kind} = {cell!r}: more than {most}; check the unit")
             measured[kind] = value, None if spread is None else noise_of(kind, spread, value)
     tables = tables_of(base, stated)
     problem = case_from_tables(tables, folder)[0]
