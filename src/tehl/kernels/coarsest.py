@@ -4,7 +4,7 @@ The Reynolds equation of `tehl.kernels.reynolds` is linearised, each conductance
 depending on all pressures through the film, and the load balance (Venner and Lubrecht 2000,
 chapter 6: the coarsest grid is solved with the load). The system is dense. Nodes are numbered row
 by row; ``influence[m, k]`` is the film at node m per unit pressure at node k. The neighbours of a
-node are kept in the order here, east, west, north, south, far west.
+node are kept in the order here, east, west, north, south, and two nodes upstream along x and y.
 """
 
 from typing import NamedTuple
@@ -18,7 +18,9 @@ from tehl.kernels.reynolds import STEADILY, Stencil, flux_weights, inner_end
 
 # part of a change of the pressure that asperities take by the film it moves
 NEGLIGIBLE_COARSE_PART = 1e-6
-HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)
+HERE, EAST, WEST, NORTH, SOUTH, FAR, ASIDE = range(7)
+SLOTS = 7
+"""Neighbours of a node, itself included."""
 
 
 class Coarse(NamedTuple):
@@ -43,6 +45,8 @@ class Coarse(NamedTuple):
     stiffness: Array
     asperity: Array
     lift: Array
+    speed: Array
+    drift: Array
 
 
 class CoarseSystem(NamedTuple):
@@ -98,9 +102,9 @@ def newton_step(state: Coarse, stencil: Stencil, system: CoarseSystem, longest: 
         rhs=np.empty(nodes + 1),
         free=np.empty(nodes, np.int64),
         full=np.empty(nodes),
-        near=np.empty(6, np.int64),
-        by_p=np.empty(6),
-        by_h=np.empty(6),
+        near=np.empty(SLOTS, np.int64),
+        by_p=np.empty(SLOTS),
+        by_h=np.empty(SLOTS),
         dry=np.zeros(nodes, np.uint8),
     )
     flat = Coarse._make(field.ravel() for field in state)
@@ -173,7 +177,7 @@ def _find_carrying(state: Coarse, system: CoarseSystem, shape: tuple[int, int], 
 @helper
 def _soften(state: Coarse, work: Work) -> None:
     """Add that the oil loses the pressure which asperities take."""
-    for n in range(6):
+    for n in range(SLOTS):
         work.by_h[n] += work.by_p[n] * state.stiffness[work.near[n]]
 
 
@@ -182,7 +186,7 @@ def _touch(state: Coarse, system: CoarseSystem, work: Work) -> None:
     """Add that asperities carry; where they alone change, the row is that of no change of oil."""
     by_p, by_h, here = work.by_p, work.by_h, work.near[HERE]
     if work.dry[here]:
-        for n in range(6):
+        for n in range(SLOTS):
             by_p[n] = 0.0
             by_h[n] = 0.0
         by_p[HERE] = 1.0
@@ -197,12 +201,13 @@ def _find_neighbours(here: int, nx: int, nodes: int, near: IntArray) -> None:
     near[NORTH] = here + nx if here + nx < nodes else here
     near[SOUTH] = here - nx if here >= nx else near[NORTH]
     near[FAR] = max(here - 2, here // nx * nx)
+    near[ASIDE] = here
 
 
 @helper
 def _clear_slopes(work: Work) -> None:
     """Set the derivatives by pressure and film to zero."""
-    for n in range(6):
+    for n in range(SLOTS):
         work.by_p[n] = 0.0
         work.by_h[n] = 0.0
 
@@ -239,6 +244,9 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
         ):
             continue
         _add_face(state, stencil, work, n)
+    if state.speed.shape[0] > 0:
+        _add_curved(state, stencil, work)
+        return
     first, far, west = near[FAR] == near[WEST], near[FAR], near[WEST]
     w0 = stencil.w0 - stencil.w2 if first else stencil.w0
     w1 = stencil.w1 + 2.0 * stencil.w2 if first else stencil.w1
@@ -254,14 +262,44 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
 
 
 @helper
+def _add_curved(state: Coarse, stencil: Stencil, work: Work) -> None:
+    """Subtract the derivatives of the wedge where the surfaces spin, of second order at most."""
+    near, nx, ny = work.near, state.drift.shape[0], state.speed.shape[0]
+    here = near[HERE]
+    j, i = here // nx, here % nx
+    u, v = state.speed[j], state.drift[i]
+    along, across = -1 if u > 0.0 else 1, -1 if v > 0.0 else 1
+    near[FAR] = here + 2 * along if 0 <= i + 2 * along < nx else here
+    near[ASIDE] = here + 2 * across * nx if 0 <= j + 2 * across < ny else here
+    _subtract_wedge(state, stencil, work, (abs(u), WEST if u > 0.0 else EAST, FAR))
+    _subtract_wedge(state, stencil, work, (abs(v), SOUTH if v > 0.0 else NORTH, ASIDE))
+
+
+@helper
+def _subtract_wedge(
+    state: Coarse, stencil: Stencil, work: Work, way: tuple[float, int, int]
+) -> None:
+    """Subtract the derivatives of a wedge; ``way``: speed, slots of two nodes upstream."""
+    near, (size, next_slot, far_slot) = work.near, way
+    first = near[far_slot] == near[HERE]
+    w0 = stencil.w0 - stencil.w2 if first else stencil.w0
+    w1 = stencil.w1 + 2.0 * stencil.w2 if first else stencil.w1
+    w2 = 0.0 if first else stencil.w2
+    for n, w in ((HERE, w0), (next_slot, w1), (far_slot, w2)):
+        there = near[n]
+        work.by_p[n] -= size * w * state.drho[there] * state.h[there]
+        work.by_h[n] -= size * w * state.rho[there]
+
+
+@helper
 def _add_slopes(system: CoarseSystem, lift: Array, work: Work, row: int, count: int) -> None:
     """Add the derivatives at node ``near[0]`` to a row of the matrix, of all nodes in ``full``."""
     full, near, by_p, by_h = work.full, work.near, work.by_p, work.by_h
-    for n in range(6):
+    for n in range(SLOTS):
         if by_h[n] != 0.0:  # dry asperities move with their own film only
             for m in range(full.shape[0]):
                 full[m] += by_h[n] * system.influence[near[n], m]
-    for n in range(6):
+    for n in range(SLOTS):
         full[near[n]] += by_p[n]
         work.matrix[row, count] += by_h[n] * lift[near[n]]
 

@@ -44,6 +44,10 @@ class Film(NamedTuple):
     rougher and both slide, ``carried`` is what they carry over h: ``rho`` is that times the
     density, and ``opening`` its slope by H over it. Without asperities they have no elements, and h
     is H.
+
+    Where the surfaces spin, ``speed`` (ny,) is the mean speed along x of each row over that at the
+    centre, and ``drift`` (nx,) that along y of each column, times dx/(kappa dy): with it the
+    differences along y have the weights of those along x. Without spin they have no elements.
     """
 
     p: Array
@@ -62,6 +66,8 @@ class Film(NamedTuple):
     channel: Array = np.zeros((0, 0))
     across: Array = np.zeros((0, 0))
     carried: Array = np.zeros((0, 0))
+    speed: Array = np.zeros(0)
+    drift: Array = np.zeros(0)
 
 
 class Factors(NamedTuple):

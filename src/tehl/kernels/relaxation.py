@@ -30,6 +30,7 @@ from tehl.kernels.reynolds import (
     both,
     both_x,
     clear,
+    curved_wedge,
     flux_weights,
     inner_end,
     line_operator,
@@ -53,7 +54,8 @@ BAND = ("west_3", "west_2", "west_1", "centre", "east_1", "east_2")
 """Coefficients of the unknowns at i - 3 .. i + 2."""
 FLUX = ("own", "upstream", "farther", "back")
 """Where oil is conserved: weights of the mass of the node and of two nodes upstream in the
-difference of the fluxes, and conductance to the west, zero behind a partly filled node."""
+difference of the fluxes, and conductance to the west, zero behind a partly filled node. Where the
+surfaces spin: weights of the wedge along x, and size of the drift."""
 FIELDS = (*LOADED, *BAND, "up_1", "up_2", "u", *FLUX)
 """Fields of a node; ``up_1, up_2, u`` are the eliminated upper bands and the solution."""
 U, OWN, UPSTREAM, FARTHER, BACK = (FIELDS.index(name) for name in ("u", *FLUX))
@@ -70,7 +72,9 @@ class LineRelaxation(NamedTuple):
     holds the residuals of eight lines, ``nodes`` (nx + 6,) their systems as records `NODE`;
     ``cells`` (nx + 6, FIELDS, LANES) is a view of ``nodes`` as numbers. From node ``ends[j]`` (ny,)
     on, all of line j is frozen. A dipole lowers each neighbour along x by ``along`` and along y by
-    ``aside`` of its rise. ``touches`` is 1 with asperities finer than the grid.
+    ``aside`` of its rise. ``touches`` is 1 with asperities finer than the grid. ``curved`` (2, n)
+    is the wedge along y of the film of a point and of a dipole, over rho and the drift, where the
+    surfaces spin; lines of negative speed are then solved against x, in their direction.
     """
 
     xi: float
@@ -89,6 +93,7 @@ class LineRelaxation(NamedTuple):
     along: float = 0.25
     aside: float = 0.25
     touches: int = 0
+    curved: Array = np.zeros((0, 0))
 
 
 def workspace(nx: int) -> tuple[Array, Records, Array]:
@@ -161,28 +166,82 @@ def _load_line(
     film: Film, stencil: Stencil, relaxation: LineRelaxation, place: Span, span: Span
 ) -> None:
     """Copy the fields of a span of nodes to a lane of the systems; ``place``: line and lane."""
-    (j, lane), ny = place, film.p.shape[0]
+    j, lane = place
+    if film.speed.shape[0] > 0:
+        _load_curved(film, stencil, relaxation, place, span)
+        return
+    for i in range(span[0], span[1]):
+        _load_node(film, stencil, relaxation, (j, i), (i + EMPTY_MARGIN_NODES, lane))
+    if stencil.conserves == STEADILY:
+        _load_flux(film, stencil, relaxation, place, span)
+
+
+@helper
+def _load_node(
+    film: Film, stencil: Stencil, relaxation: LineRelaxation, node: Span, place: Span
+) -> None:
+    """Copy the fields of a node to a place, record and lane."""
+    (j, i), (at, lane), ny = node, place, film.p.shape[0]
     south, north = row_below(j, ny), row_above(j, ny)
     eps_x, eps_y, cells, rest = film.eps_x, film.eps_y, relaxation.cells, relaxation.rest
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
-    for i in range(span[0], span[1]):
-        at = i + EMPTY_MARGIN_NODES
-        cells[at, EAST, lane] = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
-        across = both(stencil, eps_y[j, i], eps_y[north, i])
-        across = half_y * (across + both(stencil, eps_y[j, i], eps_y[south, i]))
-        cells[at, ACROSS, lane] = across + relaxation.stiffness[j, i]
-        cells[at, MASS_P, lane] = film.drho[j, i] * film.h[j, i]
-        cells[at, RHO, lane] = film.rho[j, i]
-        cells[at, DIPOLE, lane] = relaxation.kind[j, i]
-        cells[at, REST, lane] = rest[lane, i]
-        cells[at, P, lane] = film.p[j, i]
-        state = CAVITATED if film.p[j, i] == 0.0 and rest[lane, i] >= 0.0 else FREE
-        cells[at, STATE, lane] = FROZEN if relaxation.frozen[j, i] else state
-        if relaxation.touches:
-            cells[at, RHO, lane] *= film.opening[j, i]
-            cells[at, HARDNESS, lane] = film.stiffness[j, i]
-    if stencil.conserves == STEADILY:
-        _load_flux(film, stencil, relaxation, place, span)
+    cells[at, EAST, lane] = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
+    across = both(stencil, eps_y[j, i], eps_y[north, i])
+    across = half_y * (across + both(stencil, eps_y[j, i], eps_y[south, i]))
+    cells[at, ACROSS, lane] = across + relaxation.stiffness[j, i]
+    cells[at, MASS_P, lane] = film.drho[j, i] * film.h[j, i]
+    cells[at, RHO, lane] = film.rho[j, i]
+    cells[at, DIPOLE, lane] = relaxation.kind[j, i]
+    cells[at, REST, lane] = rest[lane, i]
+    cells[at, P, lane] = film.p[j, i]
+    state = CAVITATED if film.p[j, i] == 0.0 and rest[lane, i] >= 0.0 else FREE
+    cells[at, STATE, lane] = FROZEN if relaxation.frozen[j, i] else state
+    if relaxation.touches:
+        cells[at, RHO, lane] *= film.opening[j, i]
+        cells[at, HARDNESS, lane] = film.stiffness[j, i]
+
+
+@helper
+def is_reversed(film: Film, j: int) -> bool:
+    """Return whether the oil of a line moves against x."""
+    return film.speed.shape[0] > 0 and film.speed[j] < 0.0
+
+
+@helper
+def _load_curved(
+    film: Film, stencil: Stencil, relaxation: LineRelaxation, place: Span, span: Span
+) -> None:
+    """Copy the fields of a line that spins along its flow, with the weights of the wedge.
+
+    That along y moves with the node: with ``across`` it is part of the diagonal.
+    """
+    (j, lane), cells, nx = place, relaxation.cells, film.p.shape[1]
+    size, back = abs(film.speed[j]), is_reversed(film, j)
+    for k in range(span[0], span[1]):
+        i, at = nx - 1 - k if back else k, k + EMPTY_MARGIN_NODES
+        inside = min(i, nx - 2)  # the east of the last node is not used
+        _load_node(film, stencil, relaxation, (j, inside), (at, lane))
+        if back:
+            _load_reversed(film, stencil, relaxation, (j, i), (at, lane))
+        drift = abs(film.drift[i])
+        cells[at, ACROSS, lane] += drift * stencil.w0 * cells[at, MASS_P, lane]
+        first = k == 1
+        cells[at, OWN, lane] = size * (stencil.w0 - stencil.w2 if first else stencil.w0)
+        cells[at, UPSTREAM, lane] = size * (stencil.w1 + 2.0 * stencil.w2 if first else stencil.w1)
+        cells[at, FARTHER, lane] = 0.0 if first else size * stencil.w2
+        cells[at, BACK, lane] = drift
+
+
+@helper
+def _load_reversed(
+    film: Film, stencil: Stencil, relaxation: LineRelaxation, node: Span, place: Span
+) -> None:
+    """Correct what `_load_node` copied for a line against x: its east is the west."""
+    (j, i), (at, lane), cells = node, place, relaxation.cells
+    west, here = film.eps_x[j, max(i - 1, 0)], film.eps_x[j, i]
+    cells[at, EAST, lane] = 0.5 * stencil.cx * both_x(stencil, west, here)
+    cells[at, MASS_P, lane] = film.drho[j, i] * film.h[j, i]
+    cells[at, RHO, lane] = film.rho[j, i]
 
 
 @helper
@@ -220,6 +279,12 @@ def _leave_out(cells: Array, lane: int, span: Span) -> None:
 @helper
 def _fill_band(relaxation: LineRelaxation, stencil: Stencil, i: int) -> None:
     """Fill the coefficients of node ``i``: change of L there per unit change of each unknown."""
+    if relaxation.curved.shape[0] > 0:
+        here = relaxation.nodes[i + 3]
+        weights = here.own, here.upstream, here.farther
+        _fill_row(relaxation, i, weights, relaxation.nodes[i + 2].east)
+        _add_drift(relaxation, i)
+        return
     if stencil.conserves == STEADILY:
         here = relaxation.nodes[i + 3]
         _fill_row(relaxation, i, (here.own, here.upstream, here.farther), here.back)
@@ -280,6 +345,22 @@ def _fill_row(
         if any_of(around * p[0] > NEGLIGIBLE_PART):
             hardness = a_ww * far.hardness, a_w * west.hardness
             _add_asperities(relaxation, i, (*hardness, a_c * here.hardness, a_e * east.hardness))
+
+
+@helper
+def _add_drift(relaxation: LineRelaxation, i: int) -> None:
+    """Add the wedge along y of the film that the unknowns of the line move."""
+    nodes, p, d = relaxation.nodes, relaxation.curved[0], relaxation.curved[1]
+    farthest, far, west, here, east, beyond = (
+        nodes[i], nodes[i + 1], nodes[i + 2], nodes[i + 3], nodes[i + 4], nodes[i + 5]
+    )  # fmt: skip
+    moved = here.back * here.rho
+    here.west_3 -= moved * (p[3] + farthest.dipole * (d[3] - p[3]))
+    here.west_2 -= moved * (p[2] + far.dipole * (d[2] - p[2]))
+    here.west_1 -= moved * (p[1] + west.dipole * (d[1] - p[1]))
+    here.centre -= moved * (p[0] + here.dipole * (d[0] - p[0]))
+    here.east_1 -= moved * (p[1] + east.dipole * (d[1] - p[1]))
+    here.east_2 -= moved * (p[2] + beyond.dipole * (d[2] - p[2]))
 
 
 @helper
@@ -393,8 +474,10 @@ def complementarity(nodes: Records, span: Span, last: int) -> Span:
 def _store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span) -> None:
     """Apply the solution of a line: points at once, dipoles to ``delta``."""
     (j, lane), p = place, film.p
-    for i in range(span[0], span[1]):
-        u = relaxation.cells[i + EMPTY_MARGIN_NODES, U, lane]
+    last, sign = (p.shape[1] - 1, -1) if is_reversed(film, j) else (0, 1)
+    for k in range(span[0], span[1]):
+        i = last + sign * k
+        u = relaxation.cells[k + EMPTY_MARGIN_NODES, U, lane]
         moved = 0.0 if u <= -p[j, i] else p[j, i] + relaxation.omega_point * u
         dipole = relaxation.omega_dipole * max(u, -p[j, i])
         relaxation.delta[j, i] = dipole if relaxation.kind[j, i] else 0.0
@@ -440,6 +523,8 @@ def relax_batch(
     for lane in range(count):
         _residual_of_line(film, stencil, rhs, relaxation, (first + 2 * lane, lane))
         line_low, line_high = wet_range(film, relaxation, first + 2 * lane, lane)
+        if is_reversed(film, first + 2 * lane) and line_low <= line_high:
+            line_low, line_high = nx - 1 - line_high, nx - 1 - line_low
         low, high = min(low, line_low), max(high, line_high)
     if low > high:
         return
@@ -521,7 +606,9 @@ def relax_points(film: Film, stencil: Stencil, rhs: Array, self_film: Array, ome
             north = 0.5 * stencil.cy * (eps_y[j, i] + eps_y[upper, i])
             below = 0.5 * stencil.cy * (eps_y[j, i] + eps_y[south, i])
             mass, mass_w = rho[j, i] * h[j, i], rho[j, i - 1] * h[j, i - 1]
-            if i == 1:
+            if film.speed.shape[0] > 0:
+                wedge = curved_wedge(film, stencil, j, i)
+            elif i == 1:
                 wedge = (stencil.w0 - stencil.w2) * mass + (stencil.w1 + 2.0 * stencil.w2) * mass_w
             else:
                 mass_ww = rho[j, i - 2] * h[j, i - 2]
@@ -532,4 +619,6 @@ def relax_points(film: Film, stencil: Stencil, rhs: Array, self_film: Array, ome
             slope = -(east + west + north + below)
             slope -= stencil.w0 * rho[j, i] * self_film[0]
             slope -= stencil.w1 * rho[j, i - 1] * self_film[1]
+            if film.speed.shape[0] > 0:
+                slope -= stencil.w0 * abs(film.drift[i]) * rho[j, i] * self_film[0]
             p[j, i] = max(p[j, i] + omega * (rhs[j, i] - flow + wedge) / slope, 0.0)

@@ -7,8 +7,10 @@ With mobility and density frozen in ``eps`` and ``rho`` the steady Reynolds equa
 with central differences of second order, the conductance of a face being the mean of both nodes,
 and an upstream difference of the wedge (Venner and Lubrecht 2000, chapter 6). Where the wedge is of
 third order the mean is geometric: the conductance varies exponentially with the pressure, by
-factors from node to node. With ``mirror`` row 0 is the symmetry line y = 0; otherwise it is an edge
-with p = 0. Fields are those of `tehl.kernels.properties`.
+factors from node to node. Where the surfaces spin the wedge is (u rho h)_x + (v rho h)_y / kappa
+with u(y) and v(x), each upstream by its sign (docs/theory/directions.md). With ``mirror`` row 0 is
+the symmetry line y = 0; otherwise it is an edge with p = 0. Fields are those of
+`tehl.kernels.properties`.
 """
 
 from math import sqrt
@@ -107,7 +109,10 @@ def line_operator(film: Film, stencil: Stencil, j: int, out: Array, place: tuple
     The ends of the line are not touched.
     """
     _line_flow(film, stencil, j, out, place)
-    if stencil.conserves == STEADILY:
+    if film.speed.shape[0] > 0:
+        for i in range(1, place[1]):
+            out[place[0], i] -= curved_wedge(film, stencil, j, i)
+    elif stencil.conserves == STEADILY:
         _subtract_flux(film, stencil, j, out, place)
     else:
         _subtract_wedge(film, stencil, j, out, place)
@@ -143,6 +148,43 @@ def _subtract_wedge(
         out[row, i] -= w0 * rho[j, i] * h[j, i] + upstream + farther
     if stencil.third > 0.0:
         _subtract_third(film, stencil, j, out, place)
+
+
+@helper
+def curved_wedge(film: Film, stencil: Stencil, j: int, i: int) -> float:
+    """Return the wedge at a node where the surfaces spin."""
+    u, v = film.speed[j], film.drift[i]
+    found = abs(u) * _difference(film, stencil, (j, i), (0, -1 if u > 0.0 else 1))
+    return found + abs(v) * _difference(film, stencil, (j, i), (-1 if v > 0.0 else 1, 0))
+
+
+@helper
+def _difference(film: Film, stencil: Stencil, node: tuple[int, int], way: tuple[int, int]) -> float:
+    """Return the upstream difference of rho h at a node; ``way``: rows and columns upstream.
+
+    The first node continues rho h linearly.
+    """
+    rho, h, (ny, nx), (j, i), (dj, di) = film.rho, film.h, film.p.shape, node, way
+    here, west = rho[j, i] * h[j, i], rho[j + dj, i + di] * h[j + dj, i + di]
+    far_j, far_i, curved = j + 2 * dj, i + 2 * di, 0.0
+    if stencil.third > 0.0:
+        after = rho[j - dj, i - di] * h[j - dj, i - di]
+        curved = _third_beyond(stencil, i, di) * (after - 2.0 * here + west)
+    if far_j < 0 or far_j >= ny or far_i < 0 or far_i >= nx:
+        w0, w1 = stencil.w0 - stencil.w2, stencil.w1 + 2.0 * stencil.w2
+        return w0 * here + w1 * west + curved
+    far = rho[far_j, far_i] * h[far_j, far_i]
+    if stencil.third > 0.0:
+        curved -= _third_beyond(stencil, i + di, di) * (here - 2.0 * west + far)
+    return stencil.w0 * here + stencil.w1 * west + stencil.w2 * far + curved
+
+
+@helper
+def _third_beyond(stencil: Stencil, i: int, di: int) -> float:
+    """Return the weight of the third difference at the face downstream of column i."""
+    if di > 0:
+        return stencil.third if i > stencil.fore else 0.5 * stencil.third
+    return _third_at(stencil, i)
 
 
 @helper
@@ -411,6 +453,9 @@ def _node_diagonal(film: Film, stencil: Stencil, self_film: float, j: int, i: in
         stencil, eps_y[j, i], eps_y[south, i]
     )
     flow = 0.5 * stencil.cx * along + 0.5 * stencil.cy * across
+    if film.speed.shape[0] > 0:
+        w0 = stencil.w0 * (abs(film.speed[j]) + abs(film.drift[i]))
+        return flow + w0 * (film.drho[j, i] * film.h[j, i] + film.rho[j, i] * self_film)
     return flow + stencil.w0 * (film.drho[j, i] * film.h[j, i] + film.rho[j, i] * self_film)
 
 

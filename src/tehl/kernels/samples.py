@@ -70,7 +70,8 @@ def _axes(count: int, *names: str) -> dict[str, int]:
 
 
 def _sample(kernel: Callable[..., Any], seconds: float, **arrays: Any) -> Sample:
-    return Sample(kernel, seconds, {"layer": 1, "ends": 1} | arrays)
+    lines = _axes(1, "layer", "ends", "speed", "drift")
+    return Sample(kernel, seconds, lines | arrays)
 
 
 _SURFACE = _axes(1, "decay", "older", "newer")

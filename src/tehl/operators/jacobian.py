@@ -17,6 +17,7 @@ from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
 from tehl.kernels.properties import Film
 from tehl.kernels.reynolds import MARK_THIRD_ORDER, Stencil
+from tehl.operators.reynolds import Entrainment
 
 
 class Neighbours(NamedTuple):
@@ -93,10 +94,10 @@ def neighbour(
     return csr_matrix((weights, places), shape=(ny * nx, ny * nx))
 
 
-def neighbours_of(grid: Grid, stencil: Stencil) -> Neighbours:
+def neighbours_of(
+    grid: Grid, stencil: Stencil, entrainment: Entrainment | None = None
+) -> Neighbours:
     """Return the neighbours of the inner nodes.
-
-    The second-order wedge of node 1 needs a node before the first: rho H continues linearly there.
 
     Parameters
     ----------
@@ -104,23 +105,20 @@ def neighbours_of(grid: Grid, stencil: Stencil) -> Neighbours:
         On mirrored grids the row y = 0 is an inner one.
     stencil : Stencil
         Its ``w0``, ``w1``, ``w2`` are the weights of the wedge.
+    entrainment : Entrainment or None
+        Mean speeds where the surfaces spin.
     """
     inner = np.zeros(grid.shape, bool)
     inner[grid.inner] = True
-    first = inner.copy()
-    first[:, 2:] = False
-    others = inner & ~first
-    upstream = sum(
-        (
-            neighbour(grid, others, 0, -1, stencil.w1),
-            neighbour(grid, others, 0, -2, stencil.w2),
-            neighbour(grid, first, 0, 0, stencil.w0 - stencil.w2),
-            neighbour(grid, first, 0, -1, stencil.w1 + 2.0 * stencil.w2),
-        ),
-        neighbour(grid, others, 0, 0, stencil.w0),
-    )
-    if stencil.third > 0.0:
-        upstream = upstream + _third_difference(grid, stencil, inner)
+    if entrainment is None or not entrainment.speed.size:
+        upstream = _difference(grid, stencil, inner, (0, -1))
+    else:
+        speed, drift = np.broadcast_arrays(entrainment.speed[:, None], entrainment.drift)
+        ways = ((0, -1, speed), (0, 1, -speed), (-1, 0, drift), (1, 0, -drift))
+        upstream = sum(
+            rows(np.maximum(size, 0.0).ravel()) @ _difference(grid, stencil, inner, (dj, di))
+            for dj, di, size in ways
+        )
     return Neighbours(
         here=neighbour(grid, inner, 0, 0),
         east=neighbour(grid, inner, 0, 1),
@@ -131,17 +129,48 @@ def neighbours_of(grid: Grid, stencil: Stencil) -> Neighbours:
     )
 
 
-def _third_difference(grid: Grid, stencil: Stencil, inner: BoolArray) -> csr_matrix:
+def _difference(grid: Grid, stencil: Stencil, inner: BoolArray, way: tuple[int, int]) -> csr_matrix:
+    """Return the upstream difference of rho H; ``way``: rows and columns upstream.
+
+    At the first node rho H continues linearly.
+    """
+    (dj, di), first = way, inner.copy()
+    edge = (
+        (slice(2, None) if dj < 0 else slice(-2) if dj > 0 else slice(None)),
+        (slice(2, None) if di < 0 else slice(-2) if di > 0 else slice(None)),
+    )
+    first[edge] = False
+    others = inner & ~first
+    upstream = sum(
+        (
+            neighbour(grid, others, dj, di, stencil.w1),
+            neighbour(grid, others, 2 * dj, 2 * di, stencil.w2),
+            neighbour(grid, first, 0, 0, stencil.w0 - stencil.w2),
+            neighbour(grid, first, dj, di, stencil.w1 + 2.0 * stencil.w2),
+        ),
+        neighbour(grid, others, 0, 0, stencil.w0),
+    )
+    if stencil.third > 0.0:
+        upstream = upstream + _third_difference(grid, stencil, inner, way)
+    return upstream
+
+
+def _third_difference(
+    grid: Grid, stencil: Stencil, inner: BoolArray, way: tuple[int, int]
+) -> csr_matrix:
     """Return what makes the wedge one of third order: differences of t (m(i+1) - 2 m(i) + m(i-1)).
 
-    ``t`` is the weight at the face east of node i; the first face of a line has none.
+    ``t`` is the weight at the face downstream of node i; the first face of a line has none.
     """
+    dj, di = way
     weight = np.full(grid.shape, stencil.third)
-    weight[:, stencil.fore :] *= 0.5
-    weight[:, 0] = 0.0
+    weight[:, slice(stencil.fore + 1) if di > 0 else slice(stencil.fore, None)] *= 0.5
+    weight[
+        (0 if dj < 0 else -1) if dj else slice(None), (0 if di < 0 else -1) if di else slice(None)
+    ] = 0.0
     every = np.ones(grid.shape, bool)
-    here, west = neighbour(grid, every, 0, 0), neighbour(grid, every, 0, -1)
-    bent = rows(weight.ravel()) @ (neighbour(grid, every, 0, 1) - 2.0 * here + west)
+    here, west = neighbour(grid, every, 0, 0), neighbour(grid, every, dj, di)
+    bent = rows(weight.ravel()) @ (neighbour(grid, every, -dj, -di) - 2.0 * here + west)
     return csr_matrix(neighbour(grid, inner, 0, 0) @ (here - west) @ bent)
 
 

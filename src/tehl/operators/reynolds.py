@@ -4,12 +4,13 @@
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
-from tehl.estimate.scaling import Groups
+from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.kernels.properties import Film
 from tehl.kernels.reynolds import IN_TIME, STEADILY, Stencil
 from tehl.operators.influence import Influence
@@ -56,6 +57,32 @@ def steady_stencil(
         third=speed / (3.0 * grid.dx) if wedge_order > 2 else 0.0,
         fore=int(np.searchsorted(grid.x, 0.0)),
     )
+
+
+class Entrainment(NamedTuple):
+    """Mean speeds of the surfaces, as `tehl.kernels.properties.Film` has them."""
+
+    speed: Array
+    drift: Array
+
+
+def entrainment(grid: Grid, scaled: ScaledProblem) -> Entrainment:
+    """Return the mean speeds of surfaces that spin; without elements if they do not.
+
+    With the spin S = omega a_x/u_m of the mean motion they are u = 1 - S kappa Y along x and
+    v = S X along y.
+
+    Parameters
+    ----------
+    grid, scaled : Grid, ScaledProblem
+        Nodes, and the contact with its motion.
+    """
+    spin, scales = scaled.problem.motion.mean_spin, scaled.scales
+    if spin == 0.0:
+        return Entrainment(np.zeros(0), np.zeros(0))
+    ratio, stretch = spin * scales.half_width_x / scales.speed, scaled.groups.ellipticity
+    across = grid.dx / (stretch * grid.dy)
+    return Entrainment(1.0 - ratio * stretch * grid.y, ratio * across * grid.x)
 
 
 def conductance(stencil: Stencil, here: Array, there: Array) -> Array:
@@ -230,3 +257,23 @@ def line_influence(
     west = line[[1, *range(INFLUENCE_NODES - 1)]]
     dipole = point - along * (west + line[1:]) - 2.0 * aside * beside
     return point.copy(), dipole
+
+
+def curved_influence(influence: Influence, stencil: Stencil, parts: tuple[float, float]) -> Array:
+    """Return the wedge along y, over rho and drift, of the film of a point and a dipole, (2, n).
+
+    Parameters
+    ----------
+    influence, stencil : Influence, Stencil
+        Of the grid.
+    parts : (float, float)
+        As of `line_influence`.
+    """
+    along, aside = parts
+    columns = np.abs(np.arange(-1, INFLUENCE_NODES + 1))
+    table = influence(np.arange(4)[:, None], columns)  # rows at distances 0 to 3
+    point, beyond = table[:3, 1:-1], table[1:4, 1:-1]
+    before = table[[1, 0, 1], 1:-1]
+    dipole = point - along * (table[:3, :-2] + table[:3, 2:]) - aside * (before + beyond)
+    weights = np.array([stencil.w0, stencil.w1, stencil.w2])[:, None]
+    return np.array([(weights * film).sum(axis=0) for film in (point, dipole)])

@@ -24,7 +24,7 @@ from tehl.operators.film import gap
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence, influence_of
 from tehl.operators.load import Load
-from tehl.operators.reynolds import steady_stencil
+from tehl.operators.reynolds import Entrainment, entrainment, steady_stencil
 from tehl.operators.summits import AsperityTable, asperity_table
 
 FLOOR = 0.02
@@ -64,6 +64,8 @@ class Equations:
     """Friction coefficient where surfaces touch through it [-]."""
     floor: float
     """Least film in the conductance [-]: the discrete film of coarse grids may not be positive."""
+    entrainment: Entrainment
+    """Mean speeds of the surfaces where they spin, without elements where they do not."""
 
     @property
     def robust(self) -> reynolds.Stencil:
@@ -132,6 +134,7 @@ class Equations:
             contact_film=boundary_film(scaled),
             friction=0.0 if film is None else film.friction,
             floor=_floor(scaled),
+            entrainment=entrainment(grid, scaled),
         )
 
 

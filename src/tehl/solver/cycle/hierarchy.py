@@ -124,6 +124,8 @@ class CoarsestSolver:
             stiffness=film.stiffness,
             asperity=film.asperity,
             lift=ones if answer is None else answer.lift,
+            speed=film.speed,
+            drift=film.drift,
         )
 
 

@@ -35,6 +35,8 @@ class Level:
         self.film = self.cavity.extend(self.film)
         self.share = share_of(equations)
         self.film = self.share.extend(self.film)
+        speed, drift = equations.entrainment
+        self.film = self.film._replace(speed=speed, drift=drift)
         # of the mean planes: the film itself where no solids carry load
         self.separation = np.zeros(shape) if self.film.asperity.size else h
         self.rigid_approach = 0.0

@@ -76,7 +76,9 @@ class Newton:
 
     def __init__(self, level: Level, coarse: Grid) -> None:
         self.level = level
-        self.neighbours: Neighbours = neighbours_of(level.grid, level.stencil)
+        self.neighbours: Neighbours = neighbours_of(
+            level.grid, level.stencil, level.equations.entrainment
+        )
         self.to_fine = interpolation(level.grid, coarse)
         self.to_coarse = csr_matrix(
             rows(1.0 / np.asarray(self.to_fine.sum(0)).ravel()) @ self.to_fine.T

@@ -19,7 +19,7 @@ from tehl.kernels.properties import Film
 from tehl.kernels.reynolds import Stencil
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence
-from tehl.operators.reynolds import line_influence
+from tehl.operators.reynolds import curved_influence, line_influence
 from tehl.solver.cycle.equations import Equations
 
 
@@ -113,6 +113,7 @@ class LineSmoother:
         *,
         touches: bool = False,
         parts: tuple[float, float] = (0.25, 0.25),
+        curved: Array | None = None,
     ) -> None:
         point, dipole = line_influence(influence, parts)
         others = (influence(line + 1, slice(0, point.size)) for line in range(relaxation.lines))
@@ -138,6 +139,7 @@ class LineSmoother:
             along=parts[0],
             aside=parts[1],
             touches=int(touches),
+            curved=np.zeros((0, 0)) if curved is None else curved,
         )
         self.is_stiff = relaxation.stiff
 
@@ -211,4 +213,8 @@ def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
         )
     influence, touches = equations.influence, equations.asperities is not None
     parts = _dipole_parts(influence, equations.stencil)
-    return LineSmoother(equations.grid, influence, relaxation, touches=touches, parts=parts)
+    spins = equations.entrainment.speed.size > 0
+    curved = curved_influence(influence, equations.stencil, parts) if spins else None
+    return LineSmoother(
+        equations.grid, influence, relaxation, touches=touches, parts=parts, curved=curved
+    )
