@@ -473,15 +473,25 @@ def complementarity(nodes: Records, span: Span, last: int) -> Span:
 @helper
 def _store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span) -> None:
     """Apply the solution of a line: points at once, dipoles to ``delta``."""
-    (j, lane), p = place, film.p
-    last, sign = (p.shape[1] - 1, -1) if is_reversed(film, j) else (0, 1)
-    for k in range(span[0], span[1]):
-        i = last + sign * k
-        u = relaxation.cells[k + EMPTY_MARGIN_NODES, U, lane]
-        moved = 0.0 if u <= -p[j, i] else p[j, i] + relaxation.omega_point * u
-        dipole = relaxation.omega_dipole * max(u, -p[j, i])
-        relaxation.delta[j, i] = dipole if relaxation.kind[j, i] else 0.0
-        p[j, i] = p[j, i] if relaxation.kind[j, i] else moved
+    j, lane = place
+    if is_reversed(film, j):
+        for k in range(span[0], span[1]):
+            node = j, film.p.shape[1] - 1 - k
+            _store_node(film, relaxation, node, relaxation.cells[k + EMPTY_MARGIN_NODES, U, lane])
+        return
+    for i in range(span[0], span[1]):
+        u = relaxation.cells[i + EMPTY_MARGIN_NODES, U, lane]
+        _store_node(film, relaxation, (j, i), u)
+
+
+@helper
+def _store_node(film: Film, relaxation: LineRelaxation, node: Span, u: float) -> None:
+    """Apply the change ``u`` of a node."""
+    p, (j, i) = film.p, node
+    moved = 0.0 if u <= -p[j, i] else p[j, i] + relaxation.omega_point * u
+    dipole = relaxation.omega_dipole * max(u, -p[j, i])
+    relaxation.delta[j, i] = dipole if relaxation.kind[j, i] else 0.0
+    p[j, i] = p[j, i] if relaxation.kind[j, i] else moved
 
 
 @helper
