@@ -11,6 +11,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
+from tehl.estimate.spin import spin_number
 from tehl.kernels.properties import Film
 from tehl.kernels.reynolds import IN_TIME, STEADILY, Stencil
 from tehl.operators.influence import Influence
@@ -77,12 +78,11 @@ def entrainment(grid: Grid, scaled: ScaledProblem) -> Entrainment:
     grid, scaled : Grid, ScaledProblem
         Nodes, and the contact with its motion.
     """
-    spin, scales = scaled.problem.motion.mean_spin, scaled.scales
+    spin, stretch = spin_number(scaled), scaled.groups.ellipticity
     if spin == 0.0:
         return Entrainment(np.zeros(0), np.zeros(0))
-    ratio, stretch = spin * scales.half_width_x / scales.speed, scaled.groups.ellipticity
     across = grid.dx / (stretch * grid.dy)
-    return Entrainment(1.0 - ratio * stretch * grid.y, ratio * across * grid.x)
+    return Entrainment(1.0 - spin * stretch * grid.y, spin * across * grid.x)
 
 
 def conductance(stencil: Stencil, here: Array, there: Array) -> Array:

@@ -7,6 +7,7 @@ from tehl.base.units import percentage
 from tehl.base.wording import grid_size
 from tehl.contact.options import Domain, Options, can_be_halved
 from tehl.estimate.domain import far_field_error
+from tehl.estimate.spin import spin_error
 from tehl.estimate.entering import entry_error
 from tehl.estimate.memory import USUAL_MEMORY, memory_limit, needed_memory
 from tehl.estimate.scaling import ScaledProblem
@@ -60,6 +61,7 @@ def _by_grids(
     edges, domain, newtonian = level.grid.domain, 0.0, not scaled.problem.is_coupled
     if level.equations.far_field is not None:
         domain = far_field_error(scaled.entering, edges) + entry_error(scaled, edges)
+        domain += spin_error(scaled)
     if not roughness.is_rough:
         comparable = [trace for trace in traces if not trace.diverged]
         if len(comparable) < 2:
