@@ -53,6 +53,14 @@ def test_the_elliptical_contact_has_its_film():
     assert found["central film [nm]"] == pytest.approx(975.6, rel=1e-3)  # on 1025 nodes
 
 
+def test_angle_and_spin_move_the_smallest_film_to_one_side():
+    found = example("directions").main()
+    assert found["angle: smallest film"][1] < 0.75 * found["angle: smallest film"][0]
+    central = [film / found["spin: central film"][0] - 1.0 for film in found["spin: central film"]]
+    assert central[2] / central[1] == pytest.approx(4.0, rel=0.1)
+    assert found["spin: its place Y"][2] > 0.8
+
+
 def test_plain_gauss_seidel_fails_where_the_hybrid_converges():
     found = example("smoothers").main()
     assert found[5.0, "gauss-seidel"] < 1e-8

@@ -43,6 +43,29 @@ def relaxation_of(shape, xi=0.0, omega=(1.0, 1.0), influence=0.0):
     )
 
 
+@pytest.mark.parametrize("drift", [0.0, 0.4])
+def test_a_sweep_against_x_is_the_mirror_image_of_one_along_x(drift):
+    shape, rng = (9, 24), np.random.default_rng(4)
+    film, stencil = random_film(shape), stencil_of(0)
+    film.p[3:5, 15:20] = 0.0
+    rhs, found = rng.standard_normal(shape), []
+    for way in (1, -1):
+        turned = [field[:, ::way].copy(order="C") for field in film[:7]]
+        moved = film._replace(**dict(zip(film._fields[:7], turned, strict=True)))
+        moved = moved._replace(
+            speed=way * np.linspace(0.5, 1.5, 9), drift=drift * np.linspace(-1.0, 1.0, 24)[::way]
+        )
+        moved = moved._replace(drift=np.ascontiguousarray(moved.drift))
+        settings = relaxation_of(shape, xi=20.0, omega=(0.7, 0.6), influence=0.2)
+        curved = np.array([settings.point[:8], settings.dipole[:8]])
+        relaxation.relax_lines(
+            moved, stencil, np.ascontiguousarray(rhs[:, ::way]), settings._replace(curved=curved)
+        )
+        found.append(moved.p[:, ::way])
+    assert np.abs(found[0] - film.p).max() > 0.01
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-10, atol=1e-12)
+
+
 def system(nx):
     """The six-diagonal systems of eight lines, as records."""
     return relaxation.workspace(nx)[1]

@@ -12,6 +12,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels import reynolds
 from tehl.operators.flow import flow_table
 from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
+from tehl.operators.reynolds import Entrainment
 from tehl.result.solution import Status
 from tehl.solver import steady
 from tehl.solver.cycle import methods
@@ -53,15 +54,31 @@ def level(mirror: bool = True, points: int = POINTS) -> Level:
     return made
 
 
-@pytest.mark.parametrize("mirror", [True, False])
-def test_the_jacobian_is_the_derivative_of_the_operator(mirror: bool) -> None:
+@pytest.mark.parametrize(
+    ("mirror", "spins", "third"),
+    [(True, False, False), (False, False, False), (False, True, False), (False, True, True)],
+)
+def test_the_jacobian_is_the_derivative_of_the_operator(
+    mirror: bool, spins: bool, third: bool
+) -> None:
     """Products with the Jacobian are the difference of L between two states, to second order."""
     fine = level(mirror)
-    shape = fine.film.p.shape
+    shape, moves = fine.film.p.shape, None
+    if third:
+        weight = 1.0 / (3.0 * fine.grid.dx)
+        fine.equations = replace(
+            fine.equations, stencil=fine.stencil._replace(third=weight, fore=30)
+        )
+    if spins:  # in some rows the oil moves against x
+        moves = Entrainment(1.0 - fine.grid.y, 0.7 * fine.grid.x)
+        fine.film = fine.film._replace(speed=moves.speed, drift=moves.drift)
     rng = np.random.default_rng(1)
     change = np.where(fine.film.p > 0.05, rng.standard_normal(shape), 0.0)
     by_pressure, by_film = jacobian(
-        fine.film, fine.stencil, neighbours_of(fine.grid, fine.stencil), *conductance_slopes(fine)
+        fine.film,
+        fine.stencil,
+        neighbours_of(fine.grid, fine.stencil, moves),
+        *conductance_slopes(fine),
     )
     bent = np.empty(shape)
     fine.equations.deformation.deflect(change, bent)

@@ -72,6 +72,7 @@ def check(problem: PointContact) -> None:
     check_heat(problem)
     check_transient(problem)
     check_motion(problem)
+    check_spin(problem)
     check_supply(problem)
     check_asperities(problem)
     check_contact_film(problem)
@@ -256,10 +257,31 @@ def check_transient(problem: PointContact) -> None:
 def check_motion(problem: PointContact) -> None:
     """Check that sliding across the entrainment, and spin, are supported."""
     contact = problem.contact
-    for name in ("sliding_angle", "spin_1", "spin_2"):
+    names = ("sliding_angle", "spin_1", "spin_2")
+    for name in names if contact.spin_1 != contact.spin_2 else names[:1]:
         if getattr(contact, name) != 0.0 and not problem.motion.is_plain:
             raise ValueError(
                 f"contact.{name} = {getattr(contact, name):g} is not supported yet: leave it out"
+            )
+
+
+def check_spin(problem: PointContact) -> None:
+    """Check that nothing follows oil or heat along x alone where the mean motion spins."""
+    if problem.motion.mean_spin == 0.0:
+        return
+    excluded = {
+        'contact.type = "line"': (problem.contact.is_line, "the speed changes along a line"),
+        "thermal": (problem.thermal is not None, "heat would have to follow curved paths"),
+        "transient": (problem.transient is not None, "heights and films move along x alone"),
+        "contact_film": (problem.contact_film is not None, "oil is conserved along x alone"),
+        "supply": (problem.conserves_oil, "oil in cavities is conserved along x alone"),
+        "dynamics": (problem.dynamics is not None, "moving films are linearised along x alone"),
+    }
+    for name, (is_stated, why) in excluded.items():
+        if is_stated:
+            raise ValueError(
+                f"contact.spin_1, spin_2 and {name} exclude each other if the spins are not "
+                f"opposite: {why}"
             )
 
 

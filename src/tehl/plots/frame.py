@@ -25,6 +25,8 @@ MICRO, GIGA = 1e6, 1e-9
 WINDOW = ((-2.2, 1.6), (-1.7, 1.7))
 """Part of the domain that is shown, along x and y [Hertz half-widths]."""
 STEPS = (1, 2, 2.5, 5, 10)
+ARROWS = 8
+"""Velocities along each axis of a map of surfaces that spin."""
 BLUE, ORANGE, GREEN = "#1f4e9c", "#c2410c", "#3f7d20"
 PRESSURE, FILM = BLUE, ORANGE
 """Colours of pressure and film."""
@@ -286,16 +288,20 @@ def dress_contact(axes: Axes, result: Solution) -> None:
     first, second, angle = axes_of(*widths, result.groups.skew)
     rim = Ellipse((0, 0), 2 * first, 2 * second, angle=np.degrees(angle), fill=False, **style)
     axes.add_patch(rim).set_path_effects(outline("0.25", 1.9))
-    if result.groups.twist:
-        _entrainment(axes)
+    if result.problem.motion.mean_spin:
+        _velocities(axes, result)
 
 
-def _entrainment(axes: Axes) -> None:
-    """Draw the direction of the entrainment in the lower left corner of a map."""
-    style: dict[str, Any] = {"arrowstyle": "-|>", "color": "white", "lw": 1.6}
-    ends: dict[str, Any] = {"xy": (0.17, 0.06), "xytext": (0.03, 0.06)}
-    coordinates: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "axes fraction"}
-    axes.annotate("", **ends, **coordinates, arrowprops=style, zorder=6)
+def _velocities(axes: Axes, result: Solution) -> None:
+    """Draw the mean velocities of surfaces that spin on a map."""
+    motion = result.problem.motion
+    places = (np.linspace(*span, ARROWS + 2)[1:-1] for span in (axes.get_xlim(), axes.get_ylim()))
+    x, y = np.meshgrid(*places)
+    u = motion.entrainment_speed - motion.mean_spin * y / MICRO
+    v = motion.mean_spin * x / MICRO
+    style: dict[str, Any] = {"color": "white", "width": 0.004, "zorder": 4}
+    arrows = axes.quiver(x, y, u, v, angles="xy", pivot="mid", **style)
+    arrows.set_path_effects(outline("0.3", 1.4))
 
 
 def mark_levels(bar: Colorbar, lines: QuadContourSet) -> None:

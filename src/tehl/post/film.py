@@ -88,10 +88,11 @@ class MassFlow:
 def mass_flow(result: Solution) -> MassFlow:
     r"""Return the mass flow of an isothermal Newtonian film, with the laws of its lubricant.
 
-    .. math:: m_x = \rho u_m h - \frac{\rho h^3}{12\eta} \frac{\partial p}{\partial x}, \quad
-              m_y = - \frac{\rho h^3}{12\eta} \frac{\partial p}{\partial y}
+    .. math:: m_x = \rho u h - \frac{\rho h^3}{12\eta} \frac{\partial p}{\partial x}, \quad
+              m_y = \rho v h - \frac{\rho h^3}{12\eta} \frac{\partial p}{\partial y}
 
-    Central differences, trapezoidal rule; so second order where the pressure is smooth.
+    with the mean velocity u, v of the surfaces. Central differences, trapezoidal rule; so second
+    order where the pressure is smooth.
     """
     x, y, pressure, film = result.x, result.y, result.pressure, result.film_thickness
     lubricant, temperature = result.problem.lubricant, result.scales.temperature
@@ -99,9 +100,11 @@ def mass_flow(result: Solution) -> MassFlow:
     conductance = density * film**3 / (12.0 * lubricant.viscosity.viscosity(pressure, temperature))
     slope_x = np.gradient(pressure, x, axis=1, edge_order=2)
     slope_y = np.gradient(pressure, y, axis=0, edge_order=2) if y.size > 1 else 0.0 * pressure
-    along = density * result.scales.speed * film - conductance * slope_x
+    spin = result.problem.motion.mean_spin
+    along = density * (result.scales.speed - spin * y[:, None]) * film - conductance * slope_x
+    across = density * (spin * x) * film - conductance * slope_y
     forward = cell_widths(y) @ along
-    leaving = (conductance * slope_y)[0] - (conductance * slope_y)[-1]
+    leaving = across[-1] - across[0]
     steps = 0.5 * (leaving[1:] + leaving[:-1]) * np.diff(x)
     sideways = np.concatenate([[0.0], np.cumsum(steps)])
     inner = result.scaled.pressure[1:-1] if y.size > 1 else result.scaled.pressure

@@ -7,10 +7,10 @@ from tehl.base.units import percentage
 from tehl.base.wording import grid_size
 from tehl.contact.options import Domain, Options, can_be_halved
 from tehl.estimate.domain import far_field_error
-from tehl.estimate.spin import spin_error
 from tehl.estimate.entering import entry_error
 from tehl.estimate.memory import USUAL_MEMORY, memory_limit, needed_memory
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.spin import spin_error
 from tehl.estimate.starvation import supply_error
 from tehl.result.bars import ErrorEstimate
 from tehl.solver.cycle.continuation import Roughness
@@ -172,6 +172,8 @@ class Goal:
         self.obstacle = ""
         if errors is not None and errors.domain > self.options.target:
             cause = "the domain, upstream of which the oil warms or cools"
+            if spin_error(self.scaled) > 0.5 * errors.domain:
+                cause = "the pressure that spin makes outside the domain, in the gap of an ellipse"
             if isinstance(self.options.domain, Domain):
                 cause = "numerics.domain"
             self.obstacle = f"{percentage(errors.domain)} are due to {cause}"
