@@ -78,7 +78,7 @@ def test_the_oil_that_enters_leaves():
 def test_the_bar_contains_the_load_outside_an_ellipse():
     found = [solved(spinning(0.5, 10.0, 5.0, RATIO)), solved(spinning(0.5, 10.0, 5.0))]
     errors = [spin_error(ScaledProblem.of(one.problem)) for one in found]
-    assert errors[1] == 0.0
+    assert errors[1] == pytest.approx(0.003)  # by the sides, which are inlets too
     assert errors[0] == pytest.approx(0.14, rel=0.1)  # twice the domain changes it by 7 to 9 %
     assert found[0].errors.domain > errors[0]
 
