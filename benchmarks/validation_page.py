@@ -11,7 +11,7 @@ from typing import Any
 
 from tests.reference import CLOSE, DOMAIN, heated_contact, moes_contact, read, wavy_contact
 
-from benchmarks import line_page, mixed_page, starved_page, uses_page, waves
+from benchmarks import directions_page, line_page, mixed_page, starved_page, uses_page, waves
 from benchmarks.markdown import head, row
 from benchmarks.table import show
 from tehl.api.results import Result
@@ -352,6 +352,7 @@ def main() -> None:
         *starved_page.section(),
         *mixed_page.section(),
         *line_page.section(),
+        *directions_page.section(),
         *uses_page.section(),
         ONE,
     ]
