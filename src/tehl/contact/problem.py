@@ -267,7 +267,7 @@ def check_motion(problem: PointContact) -> None:
 
 def check_spin(problem: PointContact) -> None:
     """Check that nothing follows oil or heat along x alone where the mean motion spins."""
-    if problem.motion.mean_spin == 0.0:
+    if problem.contact.spin_1 + problem.contact.spin_2 == 0.0:
         return
     excluded = {
         'contact.type = "line"': (problem.contact.is_line, "the speed changes along a line"),
