@@ -9,6 +9,7 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Domain, Options
+from tehl.report.page import report_text
 from tests.reference import moes_contact, read
 
 TURNED = read("directions")["turned"]
@@ -66,6 +67,16 @@ def test_quarter_turns_and_circles_are_contacts_on_their_axes():
     assert np.array_equal(found.scaled.film, wanted.scaled.film)
     circles = [solve(turned(angle, 1.0), Options(points=65)) for angle in (0.0, 37.0)]
     assert np.array_equal(circles[0].scaled.film, circles[1].scaled.film)
+
+
+def test_report_text_and_list_state_the_axes_of_the_ellipse():
+    found = solved(45.0)
+    first, second, angle = found.problem.hertz.axes
+    assert math.degrees(angle) == pytest.approx(-45.0)
+    assert f"{1e6 * first:.6g} µm × {1e6 * second:.6g} µm" in report_text(found, dpi=20)
+    text = repr(found.problem.explain())
+    assert "at 45 deg to the axis of R = 20 mm" in text
+    assert text.count("valid for entrainment along an axis") == 2  # Chittenden's holds at angles
 
 
 def test_small_angles_change_the_film_by_their_square():

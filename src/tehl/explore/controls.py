@@ -102,6 +102,11 @@ def _in_own_table(state: State, path: str) -> bool:
     return isinstance(state.case.get(path.rpartition(".")[0]), Mapping)
 
 
+def _is_ellipse(state: State, _: str) -> bool:
+    radii = state.problem.radii_of_axes
+    return not state.problem.contact.is_line and radii.x != radii.y
+
+
 def _is_heated(state: State, _: str) -> bool:
     return state.problem.thermal is not None
 
@@ -207,6 +212,13 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
         _radius("contact.radius", "reduced radius R"),
         _radius("contact.radius_x", "reduced radius R_x, along entrainment"),
         _radius("contact.radius_y", "reduced radius R_y, across entrainment"),
+        _even(
+            "contact.entrainment_angle",
+            "angle of entrainment to R_x",
+            "deg",
+            (-0.5 * math.pi, 0.5 * math.pi),
+            when=_is_ellipse,
+        ),
         *(
             _radius(
                 f"surface_{number}.radius{axis}", f"radius{axis.replace('_', ' ')} of body {number}"

@@ -40,6 +40,7 @@ _WORDS = {
     "contact.entrainment_speed": "u_m u speed entrainment_speed entrainment mean_speed "
     "entraining_speed rolling_speed",
     "contact.slide_roll_ratio": "srr slip slide_roll_ratio slide_to_roll_ratio",
+    "contact.entrainment_angle": "entrainment_angle angle",
     "contact.radius": "radius r reduced_radius",
     "contact.radius_x": "r_x rx radius_x reduced_radius_x",
     "contact.radius_y": "r_y ry radius_y reduced_radius_y",
