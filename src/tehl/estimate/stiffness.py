@@ -67,7 +67,8 @@ def film_stiffness(problem: ContactProblem, frequency: Array | Sequence[float]) 
         If the contact is another one, or beyond the table.
     """
     scaled = ScaledProblem.of(problem)
-    circular = abs(problem.radius_y / problem.radius_x - 1.0) <= ROUND
+    radii = problem.radii_of_axes
+    circular = abs(radii.y / radii.x - 1.0) <= ROUND
     if problem.contact.is_line or not circular or problem.supply is not None:
         raise InputError(
             "film_stiffness has circular contacts, fully flooded: solve others with [dynamics]"
