@@ -25,6 +25,7 @@ from tehl.estimate.line import (
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.starvation import is_starved, starved_domain, supplied_film
 from tehl.estimate.summits import shared_load
+from tehl.estimate.third_order import third_order_bar
 
 CAUTION = 2.0
 """Factor on the slope of the film formula by load, which is half of what wider domains show between
@@ -65,8 +66,6 @@ FAVOURED = tuple(nodes for nodes in FAMILIES if nodes > 80 and (nodes - 1) % 7)
 BAR, BAR_COUPLED, EXPECTED_BAR_MARGIN = 0.24, 1.16, 1.25
 """Factors of `expected_bar`: of all contacts, of heated and thinning ones, and the margin with
 which four of five contacts reach the error on the expected grid."""
-THIRD_ORDER_FACTOR = 0.06
-"""Factor of `_third_order_bar`."""
 EXTRAPOLATED, HIGHER = 0.35, (2.5, 1.5)
 """Error bar of an extrapolated film over that of the film without, where that is large; factor and
 power of that where it is small."""
@@ -207,23 +206,6 @@ def expected_bar(
     return float(factor * width**2 * loads / (film**0.59 * groups.ellipticity**1.05))
 
 
-def _third_order_bar(groups: Groups, domain: Domain, nodes: float) -> float:
-    """Return the error bar of the film to expect with a wedge of third order.
-
-    A fit to 60 contacts of bearings, gears and cams with M up to 50,000, within a factor of two in
-    the nodes that an error needs: a thinner film is resolved as its inlet is, by M and the width.
-
-    Parameters
-    ----------
-    groups, domain : Groups, Domain
-        The contact, and the domain of the solve.
-    nodes : float
-        Nodes along x.
-    """
-    width = (domain.x[1] - domain.x[0]) / (nodes - 1)
-    return THIRD_ORDER_FACTOR * width**2 * groups.M / max(groups.ellipticity, 1.0) ** 0.6
-
-
 def expected_points(  # noqa: PLR0913 (one formula)
     groups: Groups,
     domain: Domain,
@@ -233,7 +215,6 @@ def expected_points(  # noqa: PLR0913 (one formula)
     least: float = 0.0,
     film: float | None = None,
     extrapolate: bool = False,
-    order: int = 2,
 ) -> int:
     """Return the nodes per direction on which the error bars of the film will be below an error.
 
@@ -249,15 +230,12 @@ def expected_points(  # noqa: PLR0913 (one formula)
         Nodes that must be exceeded, for waves of the surfaces.
     film : float or None
         Central film, if another than that of smooth flooded contacts [-]: `film_to_resolve`.
-    extrapolate, order : bool, {1, 2, 3}
-        Whether the two finest grids are combined, and the order of the wedge.
+    extrapolate : bool
+        Whether the two finest grids are combined.
     """
     if groups.shape is LINE:
         return line_points(groups, domain, error, least)
-    left = max(error - far_field_error(groups, domain), 0.5 * error) / EXPECTED_BAR_MARGIN
-    if order > 2:
-        bars = ((nodes, _third_order_bar(groups, domain, nodes)) for nodes in FAVOURED)
-        return next((nodes for nodes, bar in bars if nodes > least and bar <= left), FAVOURED[-1])
+    left = _left_to_the_mesh(groups, domain, error)
     bars = (
         (nodes, expected_bar(groups, domain, nodes, is_coupled=is_coupled, film=film))
         for nodes in FAMILIES
@@ -266,6 +244,11 @@ def expected_points(  # noqa: PLR0913 (one formula)
         factor, power = HIGHER
         bars = ((nodes, min(EXTRAPOLATED * bar, factor * bar**power)) for nodes, bar in bars)
     return next((nodes for nodes, bar in bars if nodes > least and bar <= left), FAMILIES[-1])
+
+
+def _left_to_the_mesh(groups: Groups, domain: Domain, error: float) -> float:
+    """Return the error bar of the film that the edges of the domain leave to the mesh."""
+    return max(error - far_field_error(groups, domain), 0.5 * error) / EXPECTED_BAR_MARGIN
 
 
 def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> float:
@@ -348,21 +331,25 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     options = settled(scaled.problem, options)
     if options.points != "auto":
         return options
-    domain = domain_of(scaled, options)
+    domain, is_line = domain_of(scaled, options), scaled.problem.contact.is_line
+    least = _nodes_of_waves(scaled, domain)
+    if options.order > 2 and not is_line:
+        left = _left_to_the_mesh(scaled.entering, domain, options.target)
+        more = (nodes for nodes in FAVOURED if nodes > least)
+        enough = (one for one in more if third_order_bar(scaled, domain, one) <= left)
+        nodes = next(enough, FAVOURED[-1])
+        is_slender = scaled.groups.ellipticity >= SLENDER_RATIO_OF_NODES
+        return options.on_points(nodes, (nodes - 1) // 2 + 1 if is_slender else nodes)
     nodes = expected_points(
         scaled.entering,
         domain,
         options.target,
         is_coupled=scaled.problem.is_coupled,
-        least=_nodes_of_waves(scaled, domain),
+        least=least,
         film=film_to_resolve(scaled),
         extrapolate=bool(options.extrapolate),
-        order=options.order,
     )
-    if scaled.problem.contact.is_line:
-        return options.on_points(nodes, 1)
-    is_slender = scaled.groups.ellipticity >= SLENDER_RATIO_OF_NODES and options.order > 2
-    return options.on_points(nodes, (nodes - 1) // 2 + 1 if is_slender else nodes)
+    return options.on_points(nodes, 1 if is_line else nodes)
 
 
 def film_to_resolve(scaled: ScaledProblem) -> float | None:

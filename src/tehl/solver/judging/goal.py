@@ -12,6 +12,7 @@ from tehl.estimate.memory import USUAL_MEMORY, memory_limit, needed_memory
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.spin import spin_error
 from tehl.estimate.starvation import supply_error
+from tehl.estimate.third_order import third_order_bar
 from tehl.result.bars import ErrorEstimate
 from tehl.solver.cycle.continuation import Roughness
 from tehl.solver.cycle.hierarchy import Hierarchy
@@ -71,6 +72,7 @@ def _by_grids(
             order,
             domain,
             newtonian=newtonian,
+            least=_least_bar(hierarchy, level),
             extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == comparable[-2:],
             line=level.grid.ny == 1,
         )
@@ -80,6 +82,13 @@ def _by_grids(
         points, amplitude = roughness.points, roughness.amplitude
         return single_grid_estimate(traces[-1], level.grid.dx, points, amplitude, domain)
     return error_estimate(comparable, order, domain, rough=True, newtonian=newtonian)
+
+
+def _least_bar(hierarchy: Hierarchy, level: Level) -> float:
+    """Return the error bar to expect with a wedge of third order; zero where there is no fit."""
+    if hierarchy.options.order < 3 or level.grid.ny == 1:
+        return 0.0
+    return third_order_bar(hierarchy.scaled, level.grid.domain, level.grid.nx)
 
 
 @dataclass(slots=True)

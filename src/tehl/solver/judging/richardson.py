@@ -20,6 +20,8 @@ SAFETY = 2.0
 RESIDUE, LESS_REGULAR = 0.25, 1.0
 """Least error bar over the extrapolated change, of the film, and of what follows from it less
 regularly: three grids may show second order by chance."""
+SECOND_BEFORE = 4.0
+"""Ratio of two changes of second order."""
 GROWING = 2.0
 """Error bar over a change that is not smaller than the one before."""
 
@@ -92,13 +94,15 @@ def with_growing_spike(highest: Estimate, middle: float, finest: float) -> Estim
     return replace(highest, discretisation=bar, uncertainty=math.hypot(bar, highest.domain))
 
 
-def discretisation_bar(values: list[float], otherwise: float = 1.0) -> float:
+def discretisation_bar(
+    values: list[float], otherwise: float = 1.0, faster: float = SECOND_BEFORE
+) -> float:
     """Return the error bar of the last of two or three values on grids halved each time.
 
     A third of the last change, times `SAFETY`, if the three values show second order;
     ``otherwise`` times the change if not, as coarse grids may be far from their limit. If that
-    change is less than a quarter of the one before, which second order would leave, two grids agree
-    by chance, and the quarter counts.
+    change is less than the one before over ``faster``, which second order would leave, two grids
+    agree by chance, and this part counts.
     """
     change = abs(values[-1] - values[-2])
     if len(values) == 3 and min(values) > 0.3 * values[-1] > 0:
@@ -107,7 +111,7 @@ def discretisation_bar(values: list[float], otherwise: float = 1.0) -> float:
         if change < 0.3 * values[-1] and 3.0 <= ratio <= 5.6:  # 4 is second order
             return SAFETY * change / 3.0
         if before < 0.3 * values[-1]:
-            return otherwise * max(change, before / 4.0)
+            return otherwise * max(change, before / faster)
     return otherwise * change
 
 
