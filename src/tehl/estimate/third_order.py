@@ -6,10 +6,11 @@ from tehl.contact.options import Domain
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import ScaledProblem
 
-FACTOR, HEATED, STARVED = 0.167, 1.4, 2.0
-"""Factors of all contacts, and of heated and of starved ones."""
-BY_LOAD, BY_SPEED, BY_SHAPE = 0.73, 0.45, 1.07
-"""Powers of M and L, and of one over a_y/a_x."""
+CIRCULAR = (0.25, 0.61, 0.19, 0.0)
+SLENDER = (0.37, 0.67, 0.46, 1.34)
+"""Factor, powers of M and L and of one over a_y/a_x, below and above `LEAST_SLENDER`."""
+LEAST_SLENDER, HEATED, STARVED = 1.5, 1.4, 2.0
+"""That ratio, and factors of heated and of starved contacts."""
 
 
 def third_order_bar(scaled: ScaledProblem, domain: Domain, nodes: float) -> float:
@@ -28,7 +29,9 @@ def third_order_bar(scaled: ScaledProblem, domain: Domain, nodes: float) -> floa
     groups, problem = scaled.entering, scaled.problem
     along = math.sqrt(2.0 * expected_central_film(groups))
     width = (domain.x[1] - domain.x[0]) / (nodes - 1) / max(along, 1.0)
-    factor = FACTOR * (1.0 if problem.thermal is None else HEATED)
+    ratio = max(groups.ellipticity, 1.0)
+    factor, by_load, by_speed, by_shape = SLENDER if ratio >= LEAST_SLENDER else CIRCULAR
+    factor *= 1.0 if problem.thermal is None else HEATED
     factor *= 1.0 if problem.supply is None else STARVED
-    loads = groups.M**BY_LOAD * max(groups.L, 0.1) ** BY_SPEED
-    return float(factor * width**2 * loads / max(groups.ellipticity, 1.0) ** BY_SHAPE)
+    loads = groups.M**by_load * max(groups.L, 0.1) ** by_speed
+    return float(factor * width**2 * loads / ratio**by_shape)
