@@ -97,7 +97,7 @@ def test_the_film_of_a_coarser_grid_is_kept_where_the_memory_ends(monkeypatch):
     real = FilmSolver._solve_finest
 
     def without_memory(run: FilmSolver):
-        if run.finest.grid.nx > 250:
+        if run.finest.grid.nx > 350:
             raise MemoryError
         real(run)
 
