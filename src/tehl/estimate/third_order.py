@@ -6,10 +6,10 @@ from tehl.contact.options import Domain
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import ScaledProblem
 
-CIRCULAR = (0.25, 0.61, 0.19, 0.0)
-SLENDER = (0.37, 0.67, 0.46, 1.34)
+CIRCLE_BAR = (0.25, 0.61, 0.19, 0.0)
+SLENDER_BAR = (0.37, 0.67, 0.46, 1.34)
 """Factor, powers of M and L and of one over a_y/a_x, below and above `LEAST_SLENDER`."""
-LEAST_SLENDER, HEATED, STARVED = 1.5, 1.4, 2.0
+LEAST_SLENDER, HEATED_BAR, STARVED_BAR = 1.5, 1.4, 2.0
 """That ratio, and factors of heated and of starved contacts."""
 
 
@@ -30,8 +30,8 @@ def third_order_bar(scaled: ScaledProblem, domain: Domain, nodes: float) -> floa
     along = math.sqrt(2.0 * expected_central_film(groups))
     width = (domain.x[1] - domain.x[0]) / (nodes - 1) / max(along, 1.0)
     ratio = max(groups.ellipticity, 1.0)
-    factor, by_load, by_speed, by_shape = SLENDER if ratio >= LEAST_SLENDER else CIRCULAR
-    factor *= 1.0 if problem.thermal is None else HEATED
-    factor *= 1.0 if problem.supply is None else STARVED
+    factor, by_load, by_speed, by_shape = SLENDER_BAR if ratio >= LEAST_SLENDER else CIRCLE_BAR
+    factor *= 1.0 if problem.thermal is None else HEATED_BAR
+    factor *= 1.0 if problem.supply is None else STARVED_BAR
     loads = groups.M**by_load * max(groups.L, 0.1) ** by_speed
     return float(factor * width**2 * loads / ratio**by_shape)
