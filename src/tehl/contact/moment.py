@@ -1,5 +1,6 @@
 """Load, motion and radius of a contact at one moment, over those that it states."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from tehl.base.units import Force, ForcePerLength, Length, Number, quantity
@@ -31,7 +32,7 @@ class Moment:
 
 
 def moment_at(problem: PointContact, time: float) -> Moment:
-    """Return the moment of a contact.
+    """Return the moment of a contact at a time since the start [s].
 
     Parameters
     ----------
@@ -40,19 +41,28 @@ def moment_at(problem: PointContact, time: float) -> Moment:
     time : float
         Since the start [s].
     """
-    courses = courses_of(problem)
-    speed = courses["entrainment_speed"].at(time) if "entrainment_speed" in courses else 1.0
-    sliding = problem.slide_roll_ratio * speed
-    if "slide_roll_ratio" in courses:
-        sliding = courses["slide_roll_ratio"].at(time) * speed
-    elif "sliding_speed" in courses:
-        sliding = courses["sliding_speed"].at(time)
-    return Moment(
-        load=courses["load"].at(time) if "load" in courses else 1.0,
-        speed=speed,
-        sliding=sliding,
-        curvature=1.0 / courses["radius"].at(time) if "radius" in courses else 1.0,
+    return timeline(problem)(time)
+
+
+def timeline(problem: PointContact) -> Callable[[float], Moment]:
+    """Return the function from times since the start [s] to the moments of a contact."""
+    courses, ratio = courses_of(problem), problem.slide_roll_ratio
+    load, speed, radius, sliding, slip = (
+        courses[key].at if key in courses else None
+        for key in ("load", "entrainment_speed", "radius", "sliding_speed", "slide_roll_ratio")
     )
+
+    def at(time: float) -> Moment:
+        mean = speed(time) if speed else 1.0
+        slid = sliding(time) if sliding else (slip(time) if slip else ratio) * mean
+        return Moment(
+            load=load(time) if load else 1.0,
+            speed=mean,
+            sliding=slid,
+            curvature=1.0 / radius(time) if radius else 1.0,
+        )
+
+    return at
 
 
 def moments_of(problem: PointContact, duration: float) -> list[Moment]:
@@ -65,7 +75,8 @@ def moments_of(problem: PointContact, duration: float) -> list[Moment]:
     duration : float
         Of the run [s].
     """
-    return [moment_at(problem, duration * n / SAMPLES) for n in range(SAMPLES + 1)]
+    at = timeline(problem)
+    return [at(duration * n / SAMPLES) for n in range(SAMPLES + 1)]
 
 
 def slides_ever(problem: PointContact) -> bool:

@@ -1,14 +1,16 @@
 """Load, motion and radius at each time step, and the distances travelled until then."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.course import LARGEST_FACTOR
-from tehl.contact.moment import Moment, courses_of, moment_at
+from tehl.contact.moment import Moment, courses_of, moment_at, timeline
 from tehl.contact.transient import MOTION
 from tehl.estimate.scaling import ScaledProblem
 
@@ -82,11 +84,13 @@ def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
     InputError
         If a value is not possible; the message has its key and time.
     """
-    problem, courses, unit = scaled.problem, courses_of(scaled.problem), _time_unit(scaled)
-    for key, course in courses.items():
-        for time in (n * step * unit for n in range(number + 1)):
+    problem, at = scaled.problem, timeline(scaled.problem)
+    seconds = step * scaled.scales.half_width_x / scaled.scales.speed
+    times = [n * seconds for n in range(number + 1)]
+    for key, course in courses_of(problem).items():
+        for time in times:
             _check(key, course.at(time), time)
-    moments = tuple(moment_at(problem, n * step * unit) for n in range(number + 1))
+    moments = tuple(map(at, times))
     if not moments[0].speed > 0.0:
         raise InputError(
             f"transient.entrainment_speed = {moments[0].speed:g} at 0 s: a run starts from a "
@@ -99,7 +103,7 @@ def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
         )
     stated = moment_at(problem.model_copy(update={"transient": None}), 0.0)
     constant = all((one.speed, one.sliding) == (stated.speed, stated.sliding) for one in moments)
-    travelled = None if constant else _travelled(scaled, step, number)
+    travelled = None if constant else _travelled(at, step, times)
     return Schedule(step=step, moments=moments, travelled=travelled)
 
 
@@ -114,17 +118,12 @@ def _check(key: str, value: float, time: float) -> None:
         )
 
 
-def _travelled(scaled: ScaledProblem, step: float, number: int) -> Array:
-    """Return the distances of `Schedule.travelled`."""
+def _travelled(at: Callable[[float], Moment], step: float, times: list[float]) -> Array:
+    """Return the distances of `Schedule.travelled` for steps [a_x / u_m] at times [s]."""
     nodes, weights = np.polynomial.legendre.leggauss(NODES_PER_STEP)
-    unit, gained = _time_unit(scaled), np.zeros((3, number + 1))
-    for n in range(number):
-        for place, weight in zip(0.5 * (nodes + 1.0), 0.5 * weights, strict=True):
-            moment = moment_at(scaled.problem, (n + place) * step * unit)
-            gained[:, n + 1] += weight * step * np.array([moment.speed, *moment.speeds])
+    gained = np.zeros((3, len(times)))
+    for n, (start, end) in enumerate(pairwise(times), 1):
+        for node, weight in zip(0.5 * (nodes + 1.0), 0.5 * weights, strict=True):
+            moment = at(start + node * (end - start))
+            gained[:, n] += weight * step * np.array([moment.speed, *moment.speeds])
     return np.asarray(np.cumsum(gained, axis=1))
-
-
-def _time_unit(scaled: ScaledProblem) -> float:
-    """Return a_x / u_m [s]."""
-    return scaled.scales.half_width_x / scaled.scales.speed
