@@ -94,6 +94,9 @@ def passing(
         history=History(
             time=time,
             load=np.ones_like(time),
+            speed=np.ones_like(time),
+            radius=np.ones_like(time),
+            sliding=np.full_like(time, problem.slide_roll_ratio),
             film_central=film[:, row, int(np.argmin(np.abs(start.x)))].copy(),
             film_minimum=film.min(axis=(1, 2)),
             pressure_max=pressure.max(axis=(1, 2)),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from tehl import InputError, solve, solve_transient
+from tehl import InputError, certify_transient, solve, solve_transient
 from tehl.api.problem import ContactProblem
 from tehl.api.results import TransientResult
 from tehl.contact.moment import courses_of, moment_at
@@ -17,6 +17,7 @@ from tehl.operators.reynolds import carried
 from tehl.operators.trail import VaryingTrail
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient.run import Run
+from tehl.solver.transient.snapshot import Snapshot, pack, unpack
 from tests.reference import moes_contact, read
 from tests.solver.test_line import line
 
@@ -253,3 +254,35 @@ def test_a_heated_film_turns():
     assert 0.8 < history.film_central[-1] / history.film_central[0] < 1.0
     assert history.film_central.min() < 0.7 * history.film_central[0]
     assert history.traction[-1] == pytest.approx(history.traction[0], rel=0.1)
+
+
+def test_a_turning_heated_run_resumes_bit_by_bit():
+    turn, slide = [[0.0, 1.0], [0.6, -0.4]], [[0.0, 0.4]]
+    case = heated(0.6, 3.5, entrainment_speed=turn, sliding_speed=slide).start.problem
+    assert case.transient is not None
+    options = Options(points=129, domain=Domain(x=(-3.5, 3.5)))
+    kept: list[Snapshot] = []
+    whole = solve_transient(case, options, keep=lambda one: kept.append(one.copy()))
+    resumed = solve_transient(case, options, resume=unpack(pack(kept[len(kept) // 2])))
+    for name in ("film_central", "pressure_max", "temperature_rise", "traction"):
+        np.testing.assert_array_equal(getattr(resumed.history, name), getattr(whole.history, name))
+
+
+def test_bars_of_a_reversal_contain_the_finer_run():
+    turn = {"entrainment_speed": [[0.0, 1.0], [2.0 * UNIT, -1.0]], "duration": 1.5 * UNIT}
+    case = line(20, 10, transient=turn | {"frames": 0})
+    box = {"domain": Domain(x=(-3.0, 3.0))}
+    run = certify_transient(case, Options(points=257, **box))
+    fine = solve_transient(case, Options(points=513, **box))
+    bar = run.uncertainty["film_minimum"]
+    assert run.status.converged
+    assert abs(fine.history.film_minimum.min() - bar.value) < bar.uncertainty
+    history = np.interp(run.bars.time, fine.history.time, fine.history.film_central)
+    found = np.interp(run.bars.time, run.history.time, run.history.film_central)
+    assert (np.abs(found - history) <= 1.05 * run.bars.film_central).all()
+
+
+def test_a_contact_that_outgrows_its_domain_is_named():
+    grows = {"load": [[0.0, 1.0], [UNIT, 4.0]]}
+    with pytest.raises(InputError, match="beyond the edge of the domain"):
+        changing(129, [-4.5, 1.5], 1.0, **grows)

@@ -183,6 +183,9 @@ def _transient(run: TransientSolution) -> Block:
         if run.start.asperities is None and run.start.problem.contact_film is None
         else _extreme(history.asperity_load, times, np.argmax),
         "load_factor": _range(history.load),
+        "speed_factor": _range(history.speed),
+        "radius_factor": _range(history.radius),
+        "sliding_factor": _range(history.sliding),
         "cycles": {"per_step": cycles.mean(), "most": cycles.max(), "total": cycles.sum()},
         "cost": asdict(run.cost),
         "start": summary(run.start),

@@ -185,8 +185,16 @@ CYCLES = _table(
 
 HISTORY = _table(
     "time",
-    ("time", "time", "s", "time; the mean of both surfaces has moved on by u_m time"),
+    (
+        "time",
+        "time",
+        "s",
+        "time; at a constant speed both surfaces have moved on by u_m time on average",
+    ),
     ("load", "load_factor", "1", "load over that of the contact"),
+    ("speed", "speed_factor", "1", "entrainment speed over that of the contact"),
+    ("radius", "radius_factor", "1", "radius along x over that of the contact"),
+    ("sliding", "sliding_factor", "1", "u_1 - u_2 over the entrainment speed of the contact"),
     ("film_central", "h_central", "m", "film at x = y = 0"),
     ("film_minimum", "h_min", "m", "smallest film between the nodes"),
     ("pressure_max", "p_max", "Pa", "largest pressure"),

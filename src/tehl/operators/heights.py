@@ -216,7 +216,6 @@ class MovingHeights:
         self.widths = (width, length)
         self.shape, self.unit = grid.shape, scales.film_thickness
         self.front = None if entrance is None else entrance * width
-        self.speed = scales.speed
         stride = 1 if problem.transient is None else problem.transient.stride
         self.surfaces = tuple(
             _Moving(speed, self._parts(surface.roughness, grid, stride * abs(speed) / scales.speed))
@@ -259,15 +258,9 @@ class MovingHeights:
         return along / self.widths[0], across / self.widths[1]
 
     @property
-    def waves_per_step(self) -> tuple[float, float]:
-        """Shortest waves that each surface moves by while the mean motion advances by a_x.
-
-        Zero for a surface whose formulas have no waves along x.
-        """
-        first, second = (
-            abs(one.speed) / self.speed * self.widths[0] / one.wavelengths[0]
-            for one in self.surfaces
-        )
+    def waves_per_length(self) -> tuple[float, float]:
+        """Shortest waves of each surface in a_x, zero where its formulas have none along x."""
+        first, second = (self.widths[0] / one.wavelengths[0] for one in self.surfaces)
         return first, second
 
     def at(self, time: float, moved: Sequence[float] | None = None) -> tuple[Array, Array]:

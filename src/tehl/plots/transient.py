@@ -40,15 +40,15 @@ def time_unit(run: TransientSolution) -> tuple[float, str]:
 
 
 def history(run: TransientSolution, *, title: bool | None = True) -> Figure:
-    """Draw film, largest pressure, traction, and rise and load if they change, over the time.
+    """Draw film, pressure, traction, and rise, load, motion and radius if they change, over time.
 
-    The upper axis is the distance that the mean of both surfaces has moved. Bands are the error
-    bars of a certified run.
+    The upper axis is the distance that the mean of both surfaces moves at a constant speed. Bands
+    are the error bars of a certified run.
 
     Parameters
     ----------
     run : TransientSolution
-        Traction, rise and load are drawn if they change.
+        Of a transient contact.
     title : bool or None
         Whether the figure has a title.
     """
@@ -62,8 +62,18 @@ def history(run: TransientSolution, *, title: bool | None = True) -> Figure:
         curves.append(("largest rise [K]", numbers.temperature_rise, "#8a1c7c"))
     if numbers.asperity_load.max() > 0:
         curves.append((_carried_by(run), numbers.asperity_load, "#b8560f"))
-    if np.ptp(numbers.load) > 0:
-        curves.append(("load [N]", numbers.load * run.start.problem.load, "0.2"))
+    problem = run.start.problem
+    mean, force = problem.entrainment_speed, "load [N/m]" if problem.contact.is_line else "load [N]"
+    curves += [
+        (label, values, "0.2")
+        for label, values in (
+            (force, numbers.load * problem.load),
+            ("entrainment [m/s]", numbers.speed * mean),
+            ("sliding [m/s]", numbers.sliding * mean),
+            ("radius [mm]", 1e3 * numbers.radius * problem.radius_x),
+        )
+        if np.ptp(values) > 0
+    ]
     picture = figure(run, (7.0, 1.8 + 1.6 * (1 + len(curves))), title=title)
     panels = picture.subplots(1 + len(curves), sharex=True)
     panels[0].plot(time, numbers.film_central * MICRO, color=FILM, label="central")

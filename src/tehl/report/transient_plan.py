@@ -4,9 +4,13 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import numpy as np
+
+from tehl.contact.moment import SAMPLES, courses_of
 from tehl.contact.options import Options
 from tehl.estimate.duration import duration_of, misplaced, number_of_steps
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.schedule import schedule_of
 
 SECONDS_PER_STEP = 0.014
 SECONDS_PER_NODE = 1.7e-6
@@ -44,6 +48,8 @@ class TransientPlan:
     a smooth one."""
     shift_per_step: tuple[float, float]
     """Mesh widths that each surface moves on per step [-]; the mean moves by ``stride``."""
+    changes: tuple[tuple[str, float, float], ...]
+    """Keys of what changes in time, with the least and the largest number."""
     questions: tuple[str, ...]
     """What is not plausible."""
 
@@ -81,12 +87,29 @@ def transient_plan(
         step_s=step,
         steps=steps,
         seconds=(start + cost * nx * ny) * steps,
-        distance=duration * units.speed / units.half_width_x,
+        distance=_distance(scaled, step, steps),
         speeds_m_s=speeds,
         points_per_wave=tuple(one if math.isfinite(one) else None for one in (first, second)),
         shift_per_step=shift,
+        changes=tuple(_changes(scaled, duration)),
         questions=tuple(_questions(scaled, duration, (first, second), shift)),
     )
+
+
+def _distance(scaled: ScaledProblem, step: float, steps: int) -> float:
+    """Return the way of the mean of both surfaces, there and back [a_x]; ``step`` in [s]."""
+    unit = scaled.scales.half_width_x / scaled.scales.speed
+    travelled = schedule_of(scaled, step / unit, steps).travelled
+    if travelled is None:
+        return duration_of(scaled) / unit
+    return float(np.abs(np.diff(travelled[0])).sum())
+
+
+def _changes(scaled: ScaledProblem, duration: float) -> Iterator[tuple[str, float, float]]:
+    """Yield each key of ``[transient]`` that changes, with the least and largest number."""
+    for key, course in courses_of(scaled.problem).items():
+        values = [course.at(duration * n / SAMPLES) for n in range(SAMPLES + 1)]
+        yield key, min(values), max(values)
 
 
 def _questions(

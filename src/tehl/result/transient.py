@@ -38,7 +38,11 @@ class History:
     time: Array
     """[s]."""
     load: Array
-    """Over that of the contact [-]."""
+    speed: Array
+    radius: Array
+    """Load, entrainment speed and radius along x, over those of the contact [-]."""
+    sliding: Array
+    """u_1 - u_2 over the entrainment speed of the contact [-]."""
     film_central: Array
     film_minimum: Array
     """Film at the centre, and the least between the nodes, as of a steady film [m]."""

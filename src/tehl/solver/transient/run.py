@@ -27,7 +27,7 @@ from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Re
 from tehl.solver.judging.measures import is_resolved, mid_film_stress, mid_film_traction
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import Attempt, finest_grid, try_strategies
-from tehl.solver.transient.checks import check_peaks, check_stride, check_waves
+from tehl.solver.transient.checks import check_peaks, check_size, check_stride, check_waves
 from tehl.solver.transient.snapshot import ANEW, Record, Snapshot, carried, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
 
@@ -118,12 +118,13 @@ class Run:
         self.heights = MovingHeights(self.scaled, grid, transient.entrance if smooth else None)
         self.seconds = transient.stride * grid.dx * scales.half_width_x / scales.speed
         self.steps = number_of_steps(self.scaled, self.seconds)
-        check_stride(transient, grid)
-        check_waves(self.heights, grid, transient.stride)
+        self.schedule = schedule_of(self.scaled, transient.stride * grid.dx, self.steps)
+        check_stride(transient, grid, self.schedule)
+        check_size(self.scaled, grid, self.schedule)
+        check_waves(self.heights, grid, self.schedule, transient.stride)
         if (fault := misplaced(self.scaled, self.steps * self.seconds)) is not None:
             raise InputError(fault)
         check_peaks(courses_of(self.problem), self.seconds)
-        self.schedule = schedule_of(self.scaled, transient.stride * grid.dx, self.steps)
         self.kept = kept_steps(transient, self.steps, self.seconds)
 
     @property
@@ -166,6 +167,9 @@ class Run:
         numbers = {
             "time": time_now,
             "load": load,
+            "speed": moment.speed,
+            "radius": 1.0 / moment.curvature,
+            "sliding": moment.sliding,
             "traction": mid_film_traction(
                 self.level, scaled, self.stepper.solver.coupling.state, load
             ),
