@@ -77,6 +77,7 @@ def moving_profiles(
     InputError
         If the surface has several features, or one away from y = 0, and ``start`` is not given.
     """
+    run.start.problem.motion.speed_of(surface)  # there are two
     x = run.x
     start = _place_of_feature(run, surface) if start is None else start
     reach = run.start.scales.half_width_x if reach is None else reach
