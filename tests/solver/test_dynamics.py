@@ -9,9 +9,16 @@ from tehl.api.solvers import solve, solve_transient
 from tehl.base.errors import InputError
 from tehl.cli.text import as_text
 from tehl.contact.options import Domain, Options
-from tehl.estimate.scaling import scales
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.io.store import save
+from tehl.operators.flow import flow_table
 from tehl.plots.dynamics import dynamics_curves
+from tehl.solver.cycle.equations import Equations
+from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.relaxation import FAST
+from tehl.solver.cycle.start import pose_problem
+from tehl.solver.physics.dynamics import changes
 from tehl.studies.bearing import bearing_table, in_series, radial_loads
 from tests.cases import ball_tables
 from tests.reference import moes_contact
@@ -280,3 +287,28 @@ def test_rotor_programs_read_the_table_of_a_bearing():
     bearings = [ross.BearingElement(n=node, **found) for node in (0, 2)]
     rotor = ross.Rotor(shaft, [disk], bearings)
     assert rotor.run_modal(speed=300.0).wn[0] > 100.0
+
+
+def squeezed(scaled, gap, reach, points):
+    """Return c of a parabolic gap without pressure, within ``reach`` of its lengths."""
+    edge, levels = reach * np.sqrt(2.0 * gap), []
+    square = Domain(x=(-edge, edge), y=(-edge, edge))
+    for number in (17, points):
+        grid = Grid(nx=number, ny=number // 2 + 1, domain=square, mirror=True)
+        options = Options(deformation="fft", edges="zero")
+        levels.append(Level(Equations.on(grid, scaled, flow_table(scaled), options), FAST))
+        pose_problem(levels[-1])
+        # hardly any pressure: nothing is cavitated, thickened or bent
+        levels[-1].set_state(np.full(grid.shape, 1e-12), gap)
+    return changes(levels, np.zeros(1), inputs=1).load_by_approach[1, 0]
+
+
+def test_without_entrainment_a_stiff_film_damps_as_a_sphere_near_a_plane():
+    """Reynolds' squeeze film, 6 pi eta R^2/h_0; both limits are of second order."""
+    scaled, gap = ScaledProblem.of(moes_contact(50.0, 0.2)), 4.0
+    near, far = (
+        (4.0 * squeezed(scaled, gap, reach, 2 * n + 1) - squeezed(scaled, gap, reach, n + 1)) / 3.0
+        for reach, n in ((6.0, 48), (12.0, 96))
+    )
+    exact = 0.5 * np.pi * scaled.groups.lambda_bar / gap
+    assert (4.0 * far - near) / 3.0 == pytest.approx(exact, rel=0.01)
