@@ -69,6 +69,12 @@ def test_thinning_and_heat_and_sampled_heights_add_to_the_time():
     assert expected_seconds(sampled, options) > expected_seconds(wavy("150 um", "20 deg"), options)
 
 
+def test_scarce_oil_takes_the_time_of_the_flooded_contact_too():
+    flooded, starved = ball(), ball(supply={"ratio": 0.5})
+    seconds = [expected_seconds(one, Options()) for one in (flooded, starved)]
+    assert 2.0 * seconds[0] < seconds[1] < 8.0 * seconds[0]
+
+
 def test_an_error_to_reach_adds_to_the_time_of_its_grid():
     scaled = ball()
     finest = expected_cycles(scaled, Options())[-1][0]

@@ -22,6 +22,8 @@ surfaces and grooves (shares 0.1 to 0.8, 129 and 257 nodes) take 0.7 to 1.9 time
 smooth ones 0.1 to 0.5 times. Where cycles fail, Newton's method takes ten times as long."""
 FIRST_CYCLES, CYCLES, ROUGH_CYCLES = 4, 2, 8
 """Cycles on the first grid, on each finer one, and on the one where the heights are raised."""
+FRONT_FACTOR = 2.0
+"""Factor where the edge of the oil must be found; the flooded contact is solved before."""
 STARTING = 0.4
 """Cost of the start of a grid in cycles."""
 NODES_PER_RESOLVED_WAVE = 8.0
@@ -84,6 +86,11 @@ def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
         for grid, cycles in finer
     )
     work *= _surplus(scaled) if options.points == "auto" else 1.0
+    if scaled.problem.supply is not None:
+        changes = dict.fromkeys(("supply", "cavitation", "transient", "dynamics"))
+        flooded = ScaledProblem.of(scaled.problem.model_copy(update=changes))
+        anew = options.model_copy(update={"domain": "auto", "edges": "auto"})
+        work = FRONT_FACTOR * work + expected_seconds(flooded, anew)
     return START_TIME + SURFACE_TIME * _sampled(scaled.problem) + FIRST_STEPS * newton + work
 
 
