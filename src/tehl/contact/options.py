@@ -107,7 +107,7 @@ class Options(Table):
     max_time: Duration = 3600.0
     """Time after which no finer grid is started."""
     max_memory: Annotated[ByteSize, Field(gt=0), BeforeValidator(_memory)] | None = None
-    """Memory that grids for an ``error`` may need, such as ``"2 GB"``; left out, 0.9 GB, at most
+    """Memory that grids for an ``error`` may need, such as ``"2 GB"``; left out, 1.2 GB, at most
     half of what is free. Stated ``points`` may take all."""
     domain: Domain | Literal["auto"] = "auto"
     """``"auto"`` takes the domain from the Moes load so that it contributes less than 0.3 % to the

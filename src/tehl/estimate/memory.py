@@ -13,9 +13,9 @@ BYTES_PER_NODE = 180
 """Measured peak memory of an isothermal Newtonian solve per node of the finest full grid."""
 BYTES_COUPLED, BYTES_HEATED, BYTES_PER_LAYER = 270, 300, 10
 """Added by heat or shear thinning, and by heat: per node, and per node and layer across the film.
-Slender contacts on 1025 x 513 nodes took 570 and 750 to 1010, where a second strategy follows up to
-1.4 times as much."""
-USABLE_MEMORY_PART, USUAL_MEMORY = 0.5, 0.9e9
+Slender contacts on 1025 x 513 nodes took 550 and 740, on 1537 x 769 nodes 460; a second strategy
+takes up to 1.4 times as much."""
+USABLE_MEMORY_PART, USUAL_MEMORY = 0.5, 1.2e9
 """Part of the free memory that a solve takes unasked, and most [byte]: so the process stays below
 1.5 GB."""
 USUAL_LAYERS = 9
