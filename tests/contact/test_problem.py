@@ -303,3 +303,18 @@ def test_a_line_contact_has_one_radius_of_the_bodies_or_reduced():
     for radii in ({"radius_x": 0.02, "radius_y": 1.0}, {}):
         with pytest.raises(ValidationError, match="radius"):
             ContactProblem.model_validate(ball_tables(contact=reduced | radii))
+
+
+@pytest.mark.parametrize(
+    ("motion", "tables", "why"),
+    [
+        ({"sliding_angle": 1.0}, {"transient": {"duration": 1e-3}}, "sliding_angle and transient"),
+        ({"spin_1": 900.0}, {"thermal": {}}, r"computed up to [\d.e+]+ rad/s, 0.8 u/a_y"),
+    ],
+)
+def test_what_surfaces_that_slide_across_or_spin_cannot_have_is_refused(motion, tables, why):
+    oil = ball_tables()["lubricant"] | {"conductivity": 0.14, "heat_capacity": 2000.0}
+    oil["viscosity"] = oil["viscosity"] | {"gamma": 0.04}
+    contact = {"radius": 0.02, "load": 80, "entrainment_speed": 0.2} | motion
+    with pytest.raises(ValidationError, match=why):
+        problem(contact=contact | {"slide_roll_ratio": 0.2}, lubricant=oil, **tables)

@@ -32,6 +32,8 @@ class Station:
     over_scale: Array  # one over the stress scale of the shear law
     tau_x: Array  # stress at mid-film, found
     tau_y: Array
+    slide: tuple[Array, Array]  # (u2 - u1)/u_m and u1/u_m at these places, both components
+    speed: tuple[Array, Array]
     t: Array  # temperature (n, rows) [K], found
 
 
@@ -86,14 +88,15 @@ def moments(across: Across, f: Array) -> tuple[Array, Array]:
 
 
 def newtonian_stress(model: Model, at: Station, fluid: Array) -> None:
-    """Find tau_m such that u goes from u1 to u2 and v from 0 to 0, in closed form."""
+    """Find tau_m such that u goes from u1 to u2 and v from v1 to v2, in closed form."""
     i0, i1 = (moment[-1] for moment in moments(model.across, fluid))
     tilt = model.terms.poiseuille * at.h * i1
-    at.tau_x, at.tau_y = (model.terms.slide / at.h - tilt * at.px) / i0, -tilt * at.py / i0
+    at.tau_x = (at.slide[0] / at.h - tilt * at.px) / i0
+    at.tau_y = (at.slide[1] / at.h - tilt * at.py) / i0
 
 
 def thin(model: Model, at: Station, fluid: Array) -> tuple[Array, Array, Array, Array]:
-    """Find tau_m of a film that thins: int phi tau_x = (u2 - u1)/h, int phi tau_y = 0.
+    """Find tau_m of a film that thins: int phi tau = (u2 - u1)/h, both components.
 
     Newton's method with halved steps, from the present stress on. Return phi = F/eta, the exponent
     n = 1 + dln F/dln s, and phi of a small change of the stress along x and along y.
@@ -107,7 +110,7 @@ def thin(model: Model, at: Station, fluid: Array) -> tuple[Array, Array, Array, 
         square = x**2 + y**2 + 1e-300
         factor, bend = thinning(model.laws, np.sqrt(square) * at.over_scale)
         phi, more = fluid * factor, bend / square
-        missing = weights @ (phi * x) - model.terms.slide / at.h, weights @ (phi * y)
+        missing = [weights @ (phi * z) - s / at.h for z, s in zip((x, y), at.slide, strict=True)]
         slopes = phi * (1.0 + more * x * x), phi * more * x * y, phi * (1.0 + more * y * y)
         return (*missing, *(weights @ s for s in slopes), phi, 1.0 + bend, slopes[0], slopes[2])
 
@@ -131,13 +134,13 @@ def thin(model: Model, at: Station, fluid: Array) -> tuple[Array, Array, Array, 
 
 
 def velocities(model: Model, at: Station, phi: Array) -> tuple[Array, Array]:
-    """Return u = u1 + h int phi tau_x and v = h int phi tau_y, with the stress that fits phi."""
+    """Return u = u1 + h int phi tau_x, and v likewise, with the stress that fits phi."""
     i0, i1 = moments(model.across, phi)
     tilt, h = model.terms.poiseuille * at.h, at.h
-    tau_x = (model.terms.slide / h - tilt * at.px * i1[-1]) / i0[-1]
-    tau_y = -tilt * at.py * i1[-1] / i0[-1]
-    u = model.terms.speed + h * (tau_x * i0 + tilt * at.px * i1)
-    return u, h * (tau_y * i0 + tilt * at.py * i1)
+    tau_x = (at.slide[0] / h - tilt * at.px * i1[-1]) / i0[-1]
+    tau_y = (at.slide[1] / h - tilt * at.py * i1[-1]) / i0[-1]
+    u = at.speed[0] + h * (tau_x * i0 + tilt * at.px * i1)
+    return u, at.speed[1] + h * (tau_y * i0 + tilt * at.py * i1)
 
 
 def mobility(across: Across, rho: Array, phi: Array) -> Array:
@@ -298,10 +301,10 @@ class Walls:
             old, new = surface.older[:, None] * two, surface.newer[:, None] * one
             self.modes[side] = surface.decay[:, None] * self.modes[side] + old + new
             past = surface.next_ * one + np.sum(self.modes[side], axis=0)
-            over_h = (at.conductivity / at.h)[:, None]
+            over_h = (surface.slowness * at.conductivity / at.h)[:, None]
             matrix[:, wall] = -sign * surface.factor * surface.near * self.across.d1[wall] * over_h
             matrix[:, wall, wall] += 1.0
-            right[:, wall] = surface.bulk[i] + surface.factor * past
+            right[:, wall] = surface.bulk[i] + surface.factor * surface.slowness * past
 
     def store(self, i: int, at: Station) -> None:
         """Keep the heat k/h T_zeta that flows into each surface."""
@@ -349,13 +352,15 @@ def outputs(model: Model, at: Station, column: Column) -> dict[str, Array]:
     """Return what the Reynolds equation takes, powers and fluxes."""
     across, terms, weights, middle = model.across, model.terms, model.across.weights, len(at.t) // 2
     i0, _ = moments(across, column.phi)
+    odd = weights @ (column.rho * (i0 / i0[-1] - 0.5))
     whole = mobility(across, column.rho, column.phi)
     shear, compression = sources(model, at, column)
     carried = terms.peclet * at.capacity * column.rho * (at.t - terms.inlet)
     out = {
         "mobility": whole,
-        "density": weights @ (column.rho * (terms.speed + terms.slide * i0 / i0[-1])),
+        "density": weights @ column.rho + at.slide[0] * odd,
         "mean_density": weights @ column.rho,
+        "odd_density": np.zeros_like(odd) if terms.plain else odd,
         "over_exponent": 1.0 / column.exponent[middle],
         "effective": np.exp(-column.ln_eta[middle]) / column.phi[middle],
         "stretch_x": mobility(across, column.rho, column.along_x) / whole,
@@ -373,6 +378,7 @@ def outputs(model: Model, at: Station, column: Column) -> dict[str, Array]:
         ln_eta, _, rho, _ = properties(model.laws, at.p, mean)
         out["mobility"] = rho[0] * np.exp(-ln_eta[0]) / out["effective"]
         out["density"] = out["mean_density"] = rho[0]
+        out["odd_density"] = np.zeros_like(odd)
     return out
 
 
@@ -384,8 +390,11 @@ def sweep(model: Model, fields: Fields, surfaces: Surfaces) -> dict[str, Array]:
         if terms.mirror:
             t[i + GHOSTS, :, :GHOSTS] = t[i + GHOSTS, :, 2 * GHOSTS : GHOSTS : -1]
         given = ("p", "h", "px", "py", "capacity", "conductivity", "over_scale", "tau_x", "tau_y")
+        x, y = fields.x[i], fields.y
         at = Station(
             **{name: getattr(fields, name)[i] for name in given},
+            slide=(terms.slide - terms.spin * y, terms.slide_y + terms.spin * x + 0.0 * y),
+            speed=(terms.speed - terms.spin_1 * y, terms.speed_y + terms.spin_1 * x + 0.0 * y),
             pt=fields.pressing[i] if terms.over_t else np.zeros_like(fields.p[i]),
             t=t[i + GHOSTS, :, rows].copy(),
         )

@@ -46,7 +46,7 @@ class Station:
             shear=shear or Newtonian(),
         )
         numbers = dict.fromkeys(records.Terms._fields, 0.0)
-        numbers |= {"poiseuille": 7.0, "slide": -0.4, "speed": 1.2, "over_x": 30.0, "over_y": 20.0}
+        numbers |= {"poiseuille": 7.0, "over_x": 30.0, "over_y": 20.0}
         numbers |= {"w0": 1.5, "w1": -2.0, "w2": 0.5, "inlet": UNITS.temperature}
         terms = records.Terms(**numbers)._replace(mirror=1, mean=0, heat=1)
         self.model = records.Model(SCHEMES[scheme](nodes), law_table(lubricant, UNITS), terms)
@@ -54,7 +54,9 @@ class Station:
         random = np.random.default_rng(4)
         for name, low, high in (("h", 0.5, 1.0), ("p_x", -1.0, 1.0), ("p_y", -1.0, 1.0)):
             self.set_line(name, random.uniform(low, high, ROWS))
-        self.set_line("over_scale", np.full(ROWS, 1.5))
+        motion = {"slide_x": -0.4, "slide_y": 0.3, "speed_x": 1.2, "speed_y": -0.1}
+        for name, value in ({"over_scale": 1.5} | motion).items():
+            self.set_line(name, np.full(ROWS, value))
         self.fill("ln_eta", random.uniform(-1.0, 1.0, (nodes, ROWS)))
         self.fill("rho", random.uniform(0.9, 1.1, (nodes, ROWS)))
         self.fill("t", np.full((nodes, ROWS), UNITS.temperature))
@@ -145,6 +147,8 @@ def twin_station(station: Station) -> twin.Station:
     names = {"p": "p", "h": "h", "px": "p_x", "py": "p_y", "pt": "p_t", "over_scale": "over_scale"}
     names |= {name: name for name in ("capacity", "conductivity", "tau_x", "tau_y")}
     rows = {ours: station.line(theirs) for ours, theirs in names.items()}
+    for name in ("slide", "speed"):
+        rows[name] = station.line(f"{name}_x"), station.line(f"{name}_y")
     return twin.Station(**rows, t=station.layer("t"))
 
 
@@ -158,7 +162,8 @@ def test_flow_of_a_station(scheme: str, nodes: int) -> None:
     np.testing.assert_allclose(station.layer("u"), u, rtol=1e-12, atol=1e-13)
     np.testing.assert_allclose(station.layer("v"), v, rtol=1e-12, atol=1e-13)
     np.testing.assert_allclose(station.mobility(), mobility, rtol=1e-12)
-    assert np.allclose(u[-1] - u[0], station.model.terms.slide)
+    assert np.allclose(u[-1] - u[0], -0.4)
+    assert np.allclose(v[-1] - v[0], 0.3)
 
 
 @pytest.mark.parametrize("mirror", [0, 1])
@@ -191,11 +196,12 @@ def test_constant_laws_give_one() -> None:
     np.testing.assert_allclose(station.layer("rho"), 1.0, rtol=1e-14)
 
 
-@pytest.mark.parametrize("slide", [-0.4, 0.4, 1e-6])
-def test_stress_of_a_couette_film(slide: float) -> None:
+@pytest.mark.parametrize("angle", [0.0, 0.7, np.pi])
+@pytest.mark.parametrize("slide", [0.4, 1e-6])
+def test_stress_of_a_couette_film(slide: float, angle: float) -> None:
     station = Station(shear=Eyring(stress=1e7))
-    terms = station.model.terms._replace(slide=slide)
-    station.model = station.model._replace(terms=terms)
+    for name, part in (("slide_x", np.cos(angle)), ("slide_y", np.sin(angle))):
+        station.set_line(name, np.full(ROWS, slide * part))
     ln_eta = np.linspace(-2.0, 12.0, ROWS)
     station.fill("ln_eta", np.tile(ln_eta, (station.nodes, 1)))
     station.set_line("p_x", np.zeros(ROWS))
@@ -203,25 +209,27 @@ def test_stress_of_a_couette_film(slide: float) -> None:
     station.flow(steps=40)
     scale, h = station.line("over_scale"), station.line("h")
     exact = np.arcsinh(np.exp(ln_eta) * slide / h * scale)
-    np.testing.assert_allclose(station.line("tau_x") * scale, exact, rtol=2e-7)
-    np.testing.assert_allclose(station.line("tau_y"), 0.0, atol=1e-12)
+    np.testing.assert_allclose(station.line("tau_x") * scale, exact * np.cos(angle), rtol=2e-7)
+    np.testing.assert_allclose(
+        station.line("tau_y") * scale, exact * np.sin(angle), rtol=2e-7, atol=1e-12
+    )
 
 
 def flow_down(axis: str, slide: float, gradient: Array) -> tuple[Array, Array]:
     """Return the flow of an Eyring film along the gradient, and what it should rise by with it."""
     station = Station(shear=Eyring(stress=1e7))
-    terms = station.model.terms._replace(slide=slide)
-    station.model = station.model._replace(terms=terms)
+    for name in ("slide_x", "slide_y", "speed_x", "speed_y"):
+        station.set_line(name, np.full(ROWS, slide if name == f"slide_{axis}" else 0.0))
     station.fill("rho", np.ones((station.nodes, ROWS)))
     for name in ("p_x", "p_y"):
         station.set_line(name, gradient if name[2:] == axis else np.zeros(ROWS))
     station.flow(steps=60)
     station.fill("integrand", station.layer(f"tangent_{axis}"))
-    rise = terms.poiseuille / 12.0 * station.line("h") ** 2 * station.mobility()
+    rise = station.model.terms.poiseuille / 12.0 * station.line("h") ** 2 * station.mobility()
     return station.model.across.weights @ station.layer({"x": "u", "y": "v"}[axis]), -rise
 
 
-@pytest.mark.parametrize(("axis", "slide"), [("x", 0.0), ("x", -0.4), ("y", 0.0)])
+@pytest.mark.parametrize(("axis", "slide"), [("x", 0.0), ("x", -0.4), ("y", -0.4)])
 def test_tangent_is_what_more_flows_when_the_gradient_grows(axis: str, slide: float) -> None:
     """Along either axis, at stresses of several scales of the law, the sliding being kept."""
     gradient, step = np.linspace(0.5, 6.0, ROWS), 1e-5

@@ -21,7 +21,7 @@ SHEAR = {
 }
 
 
-def heated_state(shear, wedge, scheme, reynolds="generalised", mirror=True):
+def heated_state(shear, wedge, scheme, reynolds="generalised", mirror=True, **turned):
     """A small heated film under a pressure and a thickness that vary along x and y."""
     problem = ContactProblem.model_validate({
         "contact": {"radius": 0.02, "hertz_pressure": 0.6e9, "entrainment_speed": 1.5,
@@ -39,6 +39,12 @@ def heated_state(shear, wedge, scheme, reynolds="generalised", mirror=True):
     domain = Domain(x=(-1.5, 1.5), y=(-1.5, 1.5))
     grid = Grid(nx=9, ny=31 if mirror else 16, domain=domain, mirror=mirror)
     state = FilmState(grid, HeatedFilm(ScaledProblem.of(problem)), wedge)
+    if turned:  # slide across the entrainment, and spin
+        state.whole = state.whole._replace(**turned, plain=0)
+        state.model = state.model._replace(terms=state.whole)
+        state.slide(1.0)
+        for surface, power in zip(state.surfaces, (0.3, -0.2), strict=True):
+            surface.slowness[:] = np.exp(power * state.fields.y)
     y, x = np.meshgrid(grid.y[-grid.shape[0] :], grid.x, indexing="ij")
     pressure = np.sqrt(np.maximum(1.0 - 0.3 * x**2 - 0.4 * y**2, 0.04))
     state.set_film(pressure, 0.25 + 0.1 * x**2 + 0.2 * np.abs(y))
@@ -86,3 +92,11 @@ def test_a_sweep_equals_its_twin(shear, wedge, scheme):
 @pytest.mark.parametrize("reynolds", ["mean", "mean-all"])
 def test_a_sweep_with_mean_properties_equals_its_twin_on_the_full_domain(reynolds):
     assert_equal(*swept(heated_state("eyring", 2, "chebyshev", reynolds, mirror=False)))
+
+
+@pytest.mark.parametrize("shear", list(SHEAR))
+def test_a_sweep_with_sliding_across_and_spin_equals_its_twin(shear):
+    state = heated_state(shear, 2, "chebyshev", mirror=False, slide_y=0.3, spin=0.2, spin_1=0.15)
+    found, twin = swept(state)
+    assert np.abs(twin["odd_density"]).max() > 0.0
+    assert_equal(found, twin)

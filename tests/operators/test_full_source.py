@@ -13,7 +13,7 @@ def resting_hertz(dx):
     x, y = np.arange(-2.0, 2.0 + 1e-9, dx), np.arange(0.0, 2.0 + 1e-9, dx)
     square = x[None] ** 2 + y[:, None] ** 2
     flux = np.sqrt(np.maximum(0.0, 1.0 - square))
-    rise = FullSource(flux.shape, True, (dx, dx), 0.0, PER_DISTANCE).rise(flux)
+    rise = FullSource(flux.shape, True, (dx, dx), (0.0, 0.0), PER_DISTANCE).rise(flux)
     return float(np.abs(rise - np.pi / 4 * (1 - square / 2))[square <= 1].max())
 
 
@@ -32,14 +32,14 @@ def test_a_moving_band_has_the_mean_temperature_of_the_table(peclet, mean):
     x, y = np.arange(-3.0, 3.0 + 1e-9, dx), np.arange(0.0, 8.0 + 1e-9, dx)
     inside = np.where(np.isclose(np.abs(x), 1.0), 0.5, np.abs(x) < 1.0)
     flux = np.tile(inside, (len(y), 1))
-    rise = FullSource(flux.shape, True, (dx, dx), peclet, PER_DISTANCE).rise(flux)[0]
+    rise = FullSource(flux.shape, True, (dx, dx), (peclet, 0.0), PER_DISTANCE).rise(flux)[0]
     theta = np.pi * peclet * rise
     assert float((theta * inside).sum()) * dx / 2.0 == pytest.approx(mean, rel=5e-3)
 
 
 def test_the_heat_of_a_surface_that_runs_backwards_goes_the_other_way():
     flux = np.random.default_rng(3).random((9, 17))
-    forward = FullSource(flux.shape, True, (0.2, 0.1), 4.0, 1.0).rise(flux)
-    backward = FullSource(flux.shape, True, (0.2, 0.1), -4.0, 1.0).rise(flux[:, ::-1])
+    forward = FullSource(flux.shape, True, (0.2, 0.1), (4.0, 0.0), 1.0).rise(flux)
+    backward = FullSource(flux.shape, True, (0.2, 0.1), (-4.0, 0.0), 1.0).rise(flux[:, ::-1])
     # the period of twice the intervals folds the two ends of a line onto each other
     np.testing.assert_allclose(backward[:, ::-1][:, 1:-1], forward[:, 1:-1], rtol=1e-10)

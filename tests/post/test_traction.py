@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.special import ellipe
 
 import tehl
 from tehl.contact.options import Domain
@@ -11,7 +12,7 @@ from tehl.contact.supply import Supply
 from tehl.operators.loaded_zone import zone_part
 from tehl.post.traction import under_pressure
 from tests.cases import moes_problem
-from tests.fixtures_result import make_result
+from tests.fixtures_result import CASE, make_result
 from tests.fixtures_thermal import with_shear
 
 
@@ -61,6 +62,27 @@ def test_friction_power_is_sliding_and_rolling(sheared):
     rolling = 2 * found.rolling * found.load * motion.entrainment_speed
     assert found.friction_power == pytest.approx(sliding + rolling)
     assert found.friction_power > 0
+
+
+@pytest.mark.parametrize("ratio", [1.0, 3.0])
+def test_the_drilling_moment_of_coulomb_friction_on_a_hertz_contact_is_the_closed_one(ratio):
+    """(3/8) mu w a E(e), 3 pi/16 mu w a of a circle (Lutz 1955; Johnson 1985, section 8.3)."""
+    radii = {"radius_x": 0.02, "radius_y": ratio * 0.02}
+    motion = {"load": 80.0, "entrainment_speed": 1.5, "spin_1": 10.0, "spin_2": -10.0}
+    result = make_result(129, case=CASE | {"contact": radii | motion})
+    hertz = result.problem.hertz
+    x, y = hertz.half_width_x * result.scaled.x, hertz.half_width_y * result.scaled.y[:, None]
+    square = (x / hertz.half_width_x) ** 2 + (y / hertz.half_width_y) ** 2
+    pressure = np.sqrt(np.maximum(1.0 - square, 0.0))
+    stress = 0.05 * hertz.pressure * pressure / np.maximum(np.hypot(x, y), 1e-12)
+    shear = replace(with_shear(result).shear, mid_film=stress * y, across=-stress * x)
+    fields = replace(result.scaled, pressure=pressure)
+    found = replace(result, shear=shear, scaled=fields).traction
+    long = max(hertz.half_width_x, hertz.half_width_y)
+    short = min(hertz.half_width_x, hertz.half_width_y)
+    limit = 0.375 * 0.05 * result.load * long * ellipe(1.0 - (short / long) ** 2)
+    assert -found.drilling_moment == pytest.approx(limit, rel=2e-3)
+    assert found.size < 1e-9
 
 
 def test_a_traction_beyond_that_of_oils_is_not_credible(sheared):

@@ -177,3 +177,14 @@ class Motion:
         (u, v), spin = self.velocity_of(surface), self.spin_1 if surface == 1 else self.spin_2
         zero = 0.0 * (x + y)
         return u - spin * y + zero, v + spin * x + zero
+
+    def sliding_field(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """Return the field of u_1 - u_2, along x and y [m/s].
+
+        Parameters
+        ----------
+        x, y : Array
+            Places that broadcast, (nx,) and (ny, 1) [m].
+        """
+        first, second = self.field_of(1, x, y), self.field_of(2, x, y)
+        return first[0] - second[0], first[1] - second[1]

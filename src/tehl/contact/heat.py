@@ -15,6 +15,8 @@ AcrossScheme = Literal["chebyshev", "uniform"]
 SourceForm = Literal["auto", "line", "full"]
 
 
+LEAST_LINE = 2.0
+"""Solid Peclet number from which a line source is marched: below, it has little of the full one."""
 LEAST_LINE_PECLET = 30.0
 """Solid Peclet number from which on the line source is good to one per cent."""
 FAR_BODY = 40.0

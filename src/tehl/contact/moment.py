@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from tehl.base.units import Force, ForcePerLength, Length, Number, quantity
+from tehl.contact.bodies import direction
 from tehl.contact.course import SIGNED_SPEED, Course, Stated, course_of
 from tehl.contact.point_contact import PointContact
 
@@ -21,7 +22,7 @@ class Moment:
     speed: float = 1.0
     """Entrainment speed; negative against x."""
     sliding: float = 0.0
-    """u_1 - u_2, over the entrainment speed of ``[contact]``."""
+    """u_1 - u_2 along x, over the entrainment speed of ``[contact]``."""
     curvature: float = 1.0
     """1/R_x."""
 
@@ -47,6 +48,7 @@ def moment_at(problem: PointContact, time: float) -> Moment:
 def timeline(problem: PointContact) -> Callable[[float], Moment]:
     """Return the function from times since the start [s] to the moments of a contact."""
     courses, ratio = courses_of(problem), problem.slide_roll_ratio
+    along, _ = direction(problem.contact.sliding_angle)
     load, speed, radius, sliding, slip = (
         courses[key].at if key in courses else None
         for key in ("load", "entrainment_speed", "radius", "sliding_speed", "slide_roll_ratio")
@@ -58,7 +60,7 @@ def timeline(problem: PointContact) -> Callable[[float], Moment]:
         return Moment(
             load=load(time) if load else 1.0,
             speed=mean,
-            sliding=slid,
+            sliding=along * slid,
             curvature=1.0 / radius(time) if radius else 1.0,
         )
 

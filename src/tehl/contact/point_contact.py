@@ -457,6 +457,15 @@ class PointContact(Table):
         )
 
     @property
+    def sliding_speed(self) -> float:
+        """Return a typical size of u_1 - u_2 in the contact, with that of spin [m/s]."""
+        motion = self.motion
+        if motion.spin_1 == motion.spin_2:
+            return abs(motion.sliding_speed)
+        reach = 2.0 / 3.0 * math.sqrt(self.hertz.half_width_x * self.hertz.half_width_y)
+        return math.hypot(motion.sliding_speed, reach * (motion.spin_1 - motion.spin_2))
+
+    @property
     def hertz(self) -> HertzContact:
         """Return the dry contact under the same load."""
         return self.shape.hertz(self.load, self.radii, self.reduced_modulus)

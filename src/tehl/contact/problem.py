@@ -20,8 +20,9 @@ from tehl.base.units import (
     SolidHeatCapacity,
     quantity,
 )
-from tehl.contact.bodies import reduced_radius
+from tehl.contact.bodies import direction, reduced_radius
 from tehl.contact.boundary_contact import THICKEST_BOUNDARY_FILM, THINNEST_BOUNDARY_FILM
+from tehl.contact.heat import LEAST_LINE
 from tehl.contact.point_contact import Contact, PointContact, Surface
 from tehl.contact.summits import GreenwoodTripp
 from tehl.contact.transient import COURSES, MOTION
@@ -42,6 +43,9 @@ SOLID_PART = (
     "computed"
 )
 """Why stiffness and damping are not computed where surfaces touch."""
+LARGEST_TURN = 0.8
+"""Largest spin of a heated surface times a_y over its speed: beyond it rows of the contact have too
+little speed along x for their heat to be followed from station to station."""
 LARGEST_RATIO = 1e3
 """Largest ratio of the reduced radii, either way: beyond it the contact is a line contact."""
 
@@ -71,13 +75,13 @@ def check(problem: PointContact) -> None:
     check_temperatures(problem)
     check_heat(problem)
     check_transient(problem)
-    check_motion(problem)
     check_spin(problem)
     check_supply(problem)
     check_asperities(problem)
     check_contact_film(problem)
     check_dynamics(problem)
     check_stress(problem)
+    check_motion(problem)
     if problem.contact.moes_speed is not None and not problem.pressure_coefficient > 0:
         raise ValueError(
             "contact.moes_speed does not determine a speed: lubricant.viscosity has no pressure "
@@ -90,6 +94,7 @@ def check(problem: PointContact) -> None:
             f'be between {1.0 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}, or contact.type "line"'
         )
     check_size(problem)
+    check_turning(problem)
     check_bodies(problem)
 
 
@@ -255,13 +260,55 @@ def check_transient(problem: PointContact) -> None:
 
 
 def check_motion(problem: PointContact) -> None:
-    """Check that sliding across the entrainment, and spin, are supported."""
+    """Check that sliding across the entrainment, and spin, go with the rest of the problem."""
     contact = problem.contact
-    names = ("sliding_angle", "spin_1", "spin_2")
-    for name in names if contact.spin_1 != contact.spin_2 else names[:1]:
-        if getattr(contact, name) != 0.0 and not problem.motion.is_plain:
+    turned = [name for name in ("spin_1", "spin_2") if getattr(contact, name) != 0.0]
+    turned += ["sliding_angle"] if direction(contact.sliding_angle)[1] != 0.0 else []
+    if not turned:
+        return
+    supply, law = problem.supply, problem.asperities
+    one_is_rougher = problem.surface_1.rms_roughness != problem.surface_2.rms_roughness
+    excluded = {
+        "transient": (problem.transient is not None, "heights move along x alone"),
+        "supply.passes": (
+            supply is not None and supply.passes is not None,
+            "both surfaces return along x alone",
+        ),
+        "dynamics": (
+            problem.dynamics is not None and problem.is_coupled,
+            "what sliding carries along y is not linearised for heat and shear thinning",
+        ),
+        "asperities": (
+            law is not None and one_is_rougher and getattr(law, "rms", None) is None,
+            "the rougher surface carries oil along x alone; state asperities.rms of both together",
+        ),
+        'contact.type = "line"': (
+            contact.is_line and turned != ["sliding_angle"],
+            "with spin the speed changes along a line",
+        ),
+    }
+    for name, (is_stated, why) in excluded.items():
+        if is_stated:
+            raise ValueError(f"contact.{turned[0]} and {name} exclude each other: {why}")
+
+
+def check_turning(problem: PointContact) -> None:
+    """Check that surfaces that spin have a speed along x, by which their heat is followed."""
+    width, motion = problem.hertz.half_width_y, problem.motion
+    for number, spin, peclet in zip(
+        (1, 2), (motion.spin_1, motion.spin_2), problem.solid_peclet, strict=True
+    ):
+        if problem.thermal is None or spin == 0.0:
+            continue
+        speed = motion.speed_of(number)
+        most = max(LARGEST_TURN * speed / width, 0.0)
+        if peclet is not None and peclet < LEAST_LINE:
+            most = 0.0
+        if abs(spin) > most:
             raise ValueError(
-                f"contact.{name} = {getattr(contact, name):g} is not supported yet: leave it out"
+                f"contact.spin_{number} = {spin:g} rad/s is too fast for [thermal]: at {speed:g} "
+                f"m/s along the entrainment the heat of this surface is computed up to {most:.3g} "
+                f"rad/s, {LARGEST_TURN:g} u/a_y, and from a Peclet number of {LEAST_LINE:g} on"
             )
 
 
@@ -271,7 +318,6 @@ def check_spin(problem: PointContact) -> None:
         return
     excluded = {
         'contact.type = "line"': (problem.contact.is_line, "the speed changes along a line"),
-        "thermal": (problem.thermal is not None, "heat would have to follow curved paths"),
         "transient": (problem.transient is not None, "heights and films move along x alone"),
         "contact_film": (problem.contact_film is not None, "oil is conserved along x alone"),
         "supply": (problem.conserves_oil, "oil in cavities is conserved along x alone"),

@@ -94,7 +94,7 @@ def _formulas(result: Result, explanation: Explanation) -> dict[str, Formulas]:
     if heat is not None:
         inlet = result.problem.inlet_temperature - 273.15
         found["temperature_max"] = (("by formula", inlet + heat.largest),)
-        if result.problem.slide_roll_ratio != 0:
+        if result.problem.motion.slides:
             found["friction"] = (("by formula", heat.traction),)
             found["power"] = (("by formula", heat.power),)
     if explanation.shared is not None:
@@ -125,7 +125,7 @@ def _remarks(found: Following, explanation: Explanation) -> dict[str, str]:
         remedy = "take less sliding" if touches else "state a shear law"
         words = f"more than an oil can transmit: {remedy}"
         remarks["friction"] = remarks["power"] = words
-    if result.problem.slide_roll_ratio == 0:
+    if not result.problem.motion.slides:
         remarks["friction"] = "pure rolling: set a slide-to-roll ratio"
     return remarks
 

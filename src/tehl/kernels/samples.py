@@ -74,7 +74,7 @@ def _sample(kernel: Callable[..., Any], seconds: float, **arrays: Any) -> Sample
     return Sample(kernel, seconds, lines | arrays)
 
 
-_SURFACE = _axes(1, "decay", "older", "newer")
+_SURFACE = _axes(1, "decay", "older", "newer", "slowness")
 _COMPLEX = np.empty((0, 0), complex)
 _NODES = relaxation.workspace(0)[1]
 _SCRATCH = records.scratch(1, records.BLOCK, 1)
@@ -109,7 +109,7 @@ COUPLED = (
         lines=_SCRATCH.lines,
         layers=_SCRATCH.layers,
         numbers=4,
-        **_axes(1, "zeta", "weights", "changes", "change", "back") | _SURFACE,
+        **_axes(1, "zeta", "weights", "changes", "change", "back", "x", "y") | _SURFACE,
         **_axes(3, "fluid", "temperature", "past", "matrix", "mass", "modes"),
     ),
     _sample(reynolds.tangent_source, 0.4),

@@ -11,7 +11,7 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 from tehl.kernels.energy.march import sweep
 from tehl.kernels.energy.records import GHOSTS, Fields, Surfaces, Terms, scratch
-from tehl.operators.heated_film import HeatedFilm, padded_rows, stress_unit
+from tehl.operators.heated_film import HeatedFilm, padded_rows, places_across, stress_unit
 from tehl.operators.surfaces import Solids
 from tehl.operators.trail import Trail, VaryingTrail
 from tehl.operators.transfer import midpoints
@@ -57,6 +57,7 @@ class FilmState:
         thorough: bool = False,
     ) -> None:
         self.grid, self.film, self.model = grid, film, film.model(grid, wedge_order)
+        self.whole = self.model.terms  # at the full sliding speed
         self.fields = _initial_fields(grid, film)
         self.surfaces = Surfaces(*(film.surface(grid, side) for side in film.sides))
         self.solids = Solids(grid, film.scaled, film.sides, film.flux_unit, finest=finest)
@@ -113,6 +114,8 @@ class FilmState:
         grid, fields, scales = self.grid, self.fields, self.film.scaled.scales
         rows = slice(0, pressure.shape[0])
         fields.p[:, rows], fields.h[:, rows] = pressure.T, np.maximum(film.T, floor)
+        if not self.model.terms.plain:  # surfaces carry oil along y through the last row
+            fields.h[:, pressure.shape[0] :] = fields.h[:, pressure.shape[0] - 1, None]
         slope_x, slope_y = pressure_slopes(grid, self.film.scaled.groups, pressure)
         if conducted is not None:
             slope_x *= np.sqrt(conducted[0])
@@ -142,16 +145,41 @@ class FilmState:
         scaled = self.film.scaled
         if not self.model.terms.heat:
             return
-        first, second = (speed * scaled.scales.speed for speed in scaled.moment.speeds)
-        sliding = abs(first - second)
-        heat = sliding * scaled.scales.hertz_pressure / self.film.flux_unit
-        self.solids.rub(heat * stress.T)
+        motion, scales = scaled.problem.motion, scaled.scales
+        first, second = (speed * scales.speed for speed in scaled.moment.speeds)
+        sliding: float | Array = abs(first - second)
+        if not motion.is_plain:
+            y = scales.half_width_y * self.grid.y[:, None]
+            sliding = np.hypot(*motion.sliding_field(scales.half_width_x * self.grid.x, y))
+        heat = sliding * scales.hertz_pressure / self.film.flux_unit
+        self.solids.rub((heat * stress).T)
         if sheared is not None:
             self.fields.sheared[:, : sheared.shape[0]] = sheared.T
         if self.transient is None:
             self.solids.warm(self.walls)
         else:
             self.transient.rub(self.solids.rubbing)
+
+    def drift(self) -> Array | None:
+        """Return the divergence of the oil that sliding carries beside the mean flow, (ny, nx).
+
+        Viscosity that varies across the film lets one surface carry more than the other, along its
+        own direction (docs/theory/thermal.md, sliding across the entrainment). None if all
+        motion is along x: then the density of the wedge contains it.
+        """
+        terms, grid = self.model.terms, self.grid
+        if terms.plain:
+            return None
+        x, y = self.fields.x, self.fields.y[: grid.shape[0], None]
+        slide_x, slide_y = terms.slide - terms.spin * y, terms.slide_y + terms.spin * x
+        mean_spin = terms.spin_1 + 0.5 * terms.spin
+        odd = (self.view("odd_density") * self.view("h")).T
+        # the mean flow 1 - mean_spin y, mean_spin x carries the density with the part of slide_x
+        along, across = mean_spin * y * slide_x * odd, (slide_y - mean_spin * x * slide_x) * odd
+        found: Array = np.gradient(along, grid.dx, axis=1)
+        if grid.ny > 1:
+            found += np.gradient(across, self.film.scaled.groups.ellipticity * grid.dy, axis=0)
+        return found
 
     def refine_from(self, coarse: "FilmState") -> None:
         """Take temperature and stress of a coarser grid by linear interpolation."""
@@ -168,9 +196,18 @@ class FilmState:
 
     def slide(self, part: float) -> None:
         """Set the sliding speed to a part of that of the contact, at the same mean speed."""
-        moment = self.film.scaled.moment
-        full = -part * moment.sliding
-        self._set_terms(self.model.terms._replace(slide=full, speed=moment.speed - 0.5 * full))
+        moment, whole = self.film.scaled.moment, self.whole
+        full, spin = -part * moment.sliding, part * whole.spin
+        self._set_terms(
+            self.model.terms._replace(
+                slide=full,
+                slide_y=part * whole.slide_y,
+                spin=spin,
+                speed=moment.speed - 0.5 * full,
+                speed_y=-0.5 * part * whole.slide_y,
+                spin_1=whole.spin_1 + 0.5 * (whole.spin - spin),
+            )
+        )
 
     def sweep(self, steps: int) -> float:
         """March once; return the largest change of temperature [K].
@@ -257,7 +294,11 @@ def _initial_fields(grid: Grid, film: HeatedFilm) -> Fields:
     temperature[:] = across[:, None] + colder[:, None] * kept_part(film.scaled, -grid.x[0], rows)
     temperature[GHOSTS:-GHOSTS, :, GHOSTS:-GHOSTS] = across[None, :, None]
     fields = Fields(*(np.zeros((nx, ny)) for _ in Fields._fields))._replace(
-        temperature=temperature, past=np.zeros((1, 1, 1)), pressing=np.zeros((1, 1))
+        x=grid.x.copy(),
+        y=places_across(grid, film.scaled.groups),
+        temperature=temperature,
+        past=np.zeros((1, 1, 1)),
+        pressing=np.zeros((1, 1)),
     )
     fields.capacity[:], fields.conductivity[:], fields.h[:] = 1.0, 1.0, FAR_FILM
     fields.sheared[:] = 1.0

@@ -1,12 +1,14 @@
 """Surface temperature under a moving source of any speed: the half-space, by FFT.
 
 The steady rise of a half-space under a heat flux q, seen from the source past which it moves with
-u_s along x, is (Jaeger 1942; Carslaw and Jaeger 1959, sec. 10.7)
+the velocity u_s, is (Jaeger 1942; Carslaw and Jaeger 1959, sec. 10.7)
 
-    T(x, y) - T_b = 1/(2 pi k) int q exp[-|u_s| (r - (x - x') sgn u_s) / (2 diffusivity)] / r dA'.
+    T(x, y) - T_b = 1/(2 pi k) int q exp[-(|u_s| r - u_s.(x - x')) / (2 diffusivity)] / r dA'.
 
 The line source of `tehl.operators.line_source` is its limit for high solid Peclet numbers.
 """
+
+import math
 
 import numpy as np
 from scipy.special import k0e, k1e
@@ -31,8 +33,8 @@ class FullSource:
         Row 0 is a symmetry line.
     cell : (float, float)
         Sides (dy, dx) of a cell, in a_x.
-    peclet : float
-        u_s a_x / (2 diffusivity), signed [-].
+    peclet : (float, float)
+        u_s a_x / (2 diffusivity) along x and y, signed [-].
     line : float
         Factor of a line source that is accounted for elsewhere and left out here.
     factor : float
@@ -44,7 +46,7 @@ class FullSource:
         shape: tuple[int, int],
         mirror: bool,
         cell: tuple[float, float],
-        peclet: float,
+        peclet: tuple[float, float],
         factor: float,
         line: float = 0.0,
     ) -> None:
@@ -53,6 +55,9 @@ class FullSource:
         self.mirror, self.shape = mirror, (ny, nx)
         self.period = (2 * (ny - 1) or 1, 2 * (nx - 1))
         rows = np.arange(ny)
+        if peclet[1] != 0.0:  # not even in y
+            rows = np.arange(self.period[0])
+            rows = np.where(rows < ny, rows, rows - self.period[0])
         columns = np.arange(2 * (nx - 1))
         columns = np.where(columns < nx, columns, columns - 2 * (nx - 1))
         source = _row_source if np.isinf(cell[0]) else _point_source
@@ -60,7 +65,7 @@ class FullSource:
         if line > 0.0:
             table[0] -= line * _line_cells(columns, cell[1])
         folded = np.minimum(np.arange(self.period[0]), self.period[0] - np.arange(self.period[0]))
-        self.spectrum = np.fft.rfft2(table[folded])
+        self.spectrum = np.fft.rfft2(table if peclet[1] != 0.0 else table[folded])
 
     def rise(self, flux: Array) -> Array:
         """Return the temperature rise under ``flux``, both of the stored shape."""
@@ -74,9 +79,9 @@ class FullSource:
 
 
 def _point_source(
-    rows: IntArray, columns: IntArray, cell: tuple[float, float], peclet: float
+    rows: IntArray, columns: IntArray, cell: tuple[float, float], peclet: tuple[float, float]
 ) -> Array:
-    """Return the integral of exp[-|B| (r - x sgn B)]/r over cells (rows, columns) from the source.
+    """Return the integral of exp[-(|B| r - B.x)]/r over cells (rows, columns) from the source.
 
     The 1/r is integrated exactly, with the exponential of the middle; cells near the source are
     split, so that the plume is resolved.
@@ -84,7 +89,7 @@ def _point_source(
     whole = Influence(cell[1], cell[0], 1.0)
     x, y = np.float64(cell[1]) * columns[None, :], np.float64(cell[0]) * rows[:, None]
     table = whole(rows[:, None], columns[None, :]) * _plume(x, y, peclet)
-    near_rows = np.flatnonzero(np.abs(rows) <= NEAR[0])
+    near_rows = np.flatnonzero(np.abs(rows) <= NEAR[peclet[1] != 0.0])
     near_columns = np.flatnonzero(np.abs(columns) <= NEAR[1])
     part = Influence(cell[1] / PARTS_PER_SIDE, cell[0] / PARTS_PER_SIDE, 1.0)
     offsets = np.arange(PARTS_PER_SIDE) - PARTS_PER_SIDE // 2
@@ -100,7 +105,7 @@ def _point_source(
 
 
 def _row_source(
-    rows: IntArray, columns: IntArray, cell: tuple[float, float], peclet: float
+    rows: IntArray, columns: IntArray, cell: tuple[float, float], velocity: tuple[float, float]
 ) -> Array:
     """Return the integral of the same over all y and over the cells of a row, (1, columns).
 
@@ -108,6 +113,7 @@ def _row_source(
     z = |B x|. A surface at rest has no steady temperature.
     """
     del rows
+    peclet = velocity[0]  # along a row nothing changes
     sign = np.sign(peclet)
     ends = sign * np.float64(cell[1]) * (columns - 0.5)
 
@@ -121,9 +127,12 @@ def _row_source(
     return 2.0 * np.abs(found)[None, :] / abs(peclet)
 
 
-def _plume(x: Array, y: Array, peclet: float) -> Array:
-    """Return exp[-|B| (r - x sgn B)]."""
-    return np.exp(-abs(peclet) * (np.hypot(x, y) - x * np.sign(peclet)))
+def _plume(x: Array, y: Array, peclet: tuple[float, float]) -> Array:
+    """Return exp[-(|B| r - B.x)]."""
+    along, across = peclet
+    if across != 0.0:
+        return np.exp(along * x + across * y - math.hypot(along, across) * np.hypot(x, y))
+    return np.exp(-abs(along) * (np.hypot(x, y) - x * np.sign(along)))
 
 
 def _line_cells(columns: IntArray, dx: float) -> Array:

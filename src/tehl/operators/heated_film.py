@@ -1,12 +1,15 @@
 """The energy equation of a contact on any grid: dimensionless numbers, laws, surfaces, units."""
 
+import math
+
 import numpy as np
 
+from tehl.base.typing import Array
 from tehl.contact.heat import FilmEnergy
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.entering import film_peclet
 from tehl.estimate.grid import Grid
-from tehl.estimate.scaling import ScaledProblem, Scales
+from tehl.estimate.scaling import Groups, ScaledProblem, Scales
 from tehl.kernels.energy.records import BLOCK, GHOSTS, Model, Surface, Terms
 from tehl.operators.across import SCHEMES
 from tehl.operators.law_table import law_table
@@ -45,7 +48,7 @@ class HeatedFilm:
     @property
     def solid_peclet(self) -> tuple[float, float]:
         """Return ``|u_s| a_x / (2 diffusivity)`` of both solids [-]."""
-        first, second = (abs(side.peclet) for side in self.sides)
+        first, second = (math.hypot(side.peclet, side.peclet_y) for side in self.sides)
         return first, second
 
     def model(self, grid: Grid, wedge_order: int) -> Model:
@@ -75,6 +78,7 @@ class HeatedFilm:
         return Surface(
             bulk=np.full((nx, ny), side.bulk),
             factor=factor,
+            slowness=side.slowness(places_across(grid, self.scaled.groups)),
             flux=np.zeros((nx + 2 * GHOSTS, ny)),
             **history(nx, grid.dx)._asdict(),
         )
@@ -83,6 +87,19 @@ class HeatedFilm:
 def padded_rows(grid: Grid) -> int:
     """Return the rows of ``grid``, rounded up to whole blocks."""
     return -(-grid.shape[0] // BLOCK) * BLOCK
+
+
+def places_across(grid: Grid, groups: Groups) -> Array:
+    """Return y of the padded rows in a_x; zero for a line contact.
+
+    Parameters
+    ----------
+    grid, groups : Grid, Groups
+        Rows, and the ellipticity.
+    """
+    if grid.ny == 1:
+        return np.zeros(padded_rows(grid))
+    return groups.ellipticity * (grid.y[0] + grid.dy * np.arange(padded_rows(grid)))
 
 
 def stress_unit(scales: Scales) -> float:
@@ -113,14 +130,20 @@ def _film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
     across = scales.film_thickness**2 / conductivity
     along = scales.speed / scales.half_width_x
     w0, w1, w2 = UPSTREAM[min(wedge_order, 2)]
-    slide = -scaled.moment.sliding
+    motion, slide = problem.motion, -scaled.moment.sliding
+    slide_y, per_spin = -motion.sliding_ratio[1], scales.half_width_x / scales.speed
     return Terms(
         peclet=film_peclet(scaled),
         compression=scales.hertz_pressure * along * across,
         brinkman=scales.viscosity * scales.speed**2 / conductivity,
         poiseuille=12.0 / groups.lambda_bar,
         slide=slide,
+        slide_y=slide_y,
         speed=scaled.moment.speed - 0.5 * slide,
+        speed_y=-0.5 * slide_y,
+        spin=(motion.spin_2 - motion.spin_1) * per_spin,
+        spin_1=motion.spin_1 * per_spin,
+        plain=int(motion.is_plain),
         over_x=1.0 / grid.dx,
         over_y=1.0 / (groups.ellipticity * grid.dy),
         over_t=0.0,

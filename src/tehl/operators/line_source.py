@@ -59,9 +59,6 @@ def line_rise(flux: Array, spacing: float) -> Array:
 def history(nodes: int, spacing: float) -> History:
     """Return the weights for ``nodes`` nodes along x, ``spacing`` apart.
 
-    ``1/sqrt(t) = 2/sqrt(pi) int exp(y - t exp(2y)) dy`` for t of 1 to ``nodes`` mesh widths; the
-    slowest exponentials, which have hardly decayed, are lumped into one of the same first moment.
-
     Parameters
     ----------
     nodes : int
@@ -69,21 +66,8 @@ def history(nodes: int, spacing: float) -> History:
     spacing : float
         Mesh width [a_x].
     """
-    low, high = -0.5 * np.log(nodes) - 3.0, 1.3
-    y = np.arange(low, high + LOG_QUADRATURE_STEP, LOG_QUADRATURE_STEP)
-    weight, rate = 2.0 / np.sqrt(np.pi) * LOG_QUADRATURE_STEP * np.exp(y), np.exp(2.0 * y)
-    ratio = np.exp(-LOG_QUADRATURE_STEP)
-    lump = weight[0] * ratio / (1.0 - ratio)
-    lump_rate = weight[0] * rate[0] * ratio**3 / (1.0 - ratio**3) / lump
-    weight, rate = np.concatenate([[lump], weight]), np.concatenate([[lump_rate], rate])
-    decay = np.exp(-rate)
-    # int_0^1 exp(-rate t) (1 - t, t) dt, series where the closed form cancels
-    small = rate < 1e-2
-    safe = np.where(small, 1.0, rate)
-    first = np.where(
-        small, 0.5 - rate / 6 + rate**2 / 24 - rate**3 / 120, (safe - 1 + decay) / safe**2
-    )
-    total = np.where(small, 1 - rate / 2 + rate**2 / 6 - rate**3 / 24, (1 - decay) / safe)
+    weight, rate = exponentials(nodes)
+    decay, (total, first) = np.exp(-rate), averages(rate)
     root = np.sqrt(spacing)
     return History(
         near=4.0 / 3.0 * root,
@@ -92,3 +76,37 @@ def history(nodes: int, spacing: float) -> History:
         older=root * weight * decay * (total - first),
         newer=root * weight * decay * first,
     )
+
+
+def exponentials(nodes: int, shortest: float = 1.0) -> tuple[Array, Array]:
+    """Return weights and rates of a sum of exponentials that is 1/sqrt(t).
+
+    ``1/sqrt(t) = 2/sqrt(pi) int exp(y - t exp(2y)) dy`` for t of ``shortest`` to ``nodes`` mesh
+    widths; the slowest exponentials, which have hardly decayed, are lumped into one of the same
+    first moment.
+
+    Parameters
+    ----------
+    nodes : int
+        Longest distance [mesh widths].
+    shortest : float
+        Shortest one.
+    """
+    low, high = -0.5 * np.log(nodes) - 3.0, 1.3 - 0.5 * np.log(shortest)
+    y = np.arange(low, high + LOG_QUADRATURE_STEP, LOG_QUADRATURE_STEP)
+    weight, rate = 2.0 / np.sqrt(np.pi) * LOG_QUADRATURE_STEP * np.exp(y), np.exp(2.0 * y)
+    ratio = np.exp(-LOG_QUADRATURE_STEP)
+    lump = weight[0] * ratio / (1.0 - ratio)
+    lump_rate = weight[0] * rate[0] * ratio**3 / (1.0 - ratio**3) / lump
+    return np.concatenate([[lump], weight]), np.concatenate([[lump_rate], rate])
+
+
+def averages(rate: Array) -> tuple[Array, Array]:
+    """Return int_0^1 exp(-rate t) dt and int_0^1 (1 - t) exp(-rate t) dt, of any shape."""
+    decay, small = np.exp(-rate), rate < 1e-2  # series where the closed form cancels
+    safe = np.where(small, 1.0, rate)
+    first = np.where(
+        small, 0.5 - rate / 6 + rate**2 / 24 - rate**3 / 120, (safe - 1 + decay) / safe**2
+    )
+    total = np.where(small, 1 - rate / 2 + rate**2 / 6 - rate**3 / 24, (1 - decay) / safe)
+    return total, first

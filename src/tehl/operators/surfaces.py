@@ -15,16 +15,17 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, gmres
 
 from tehl.base.typing import Array
-from tehl.contact.heat import FilmEnergy, rubbing_parts, source_form
-from tehl.contact.materials import Solid
+from tehl.contact.heat import LEAST_LINE, FilmEnergy, rubbing_parts, source_form
+from tehl.contact.point_contact import PointContact
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem, Scales
 from tehl.operators.full_source import FullSource
 from tehl.operators.line_source import line_rise
+from tehl.operators.stream_source import StreamSource, row_speed
 from tehl.operators.transfer import midpoints
 
-LEAST_LINE = 2.0
-"""Solid Peclet number from which a line source is marched: below, it has little of the full one."""
+STEEPEST_PATH = 2.0
+"""Slope of paths to x up to which they are followed from station to station."""
 COARSENED_FROM = 128
 """Intervals from which the full source is summed on every second node: its field is smooth."""
 SURFACE_TOLERANCE, SURFACE_ITERATIONS = 0.02, 30
@@ -39,21 +40,26 @@ class Side:
     ----------
     bulk : float
         Temperature far from the contact [K].
-    speed : float
-        u_s, positive along x [m/s].
+    speed, across : float
+        u_s, positive along x, and v_s along y at the centre [m/s].
+    spin : float
+        Angular velocity times a_x over u_s, from x to y [-].
     conductivity, capacity : float
         k_s [W/m/K] and rho_s c_s [J/m^3/K]; zero where the film is isothermal.
-    peclet : float
-        u_s a_x / (2 diffusivity), signed [-].
+    peclet, peclet_y : float
+        u_s a_x / (2 diffusivity), along x and y, signed [-].
     form : {"line", "full"}
         The source that is to be used.
     """
 
     bulk: float
     speed: float
+    across: float
+    spin: float
     conductivity: float
     capacity: float
     peclet: float
+    peclet_y: float
     form: Literal["line", "full"]
 
     @property
@@ -65,6 +71,16 @@ class Side:
     def least_line(self) -> float:
         """Return the solid Peclet number from which the line is marched."""
         return LEAST_LINE if self.form == "full" else 0.0
+
+    @property
+    def streams(self) -> bool:
+        """Whether heat goes along paths that a march along x, or a full source, lacks."""
+        turned = self.spin != 0.0 or (self.across != 0.0 and self.form == "line")
+        return self.marches and turned
+
+    def slowness(self, y: Array) -> Array:
+        """Return the root of the speed along x at the centre over that of each row ``y`` [a_x]."""
+        return np.asarray(1.0 / np.sqrt(row_speed(self.spin, y)))
 
     @property
     def needs_full(self) -> bool:
@@ -98,24 +114,36 @@ def sides(scaled: ScaledProblem, heat: FilmEnergy) -> tuple[Side, Side]:
     problem, scales = scaled.problem, scaled.scales
     first, second = (scales.speed * speed for speed in scaled.moment.speeds)
     return (
-        _side(problem.surface_1.material, heat.bulk_1, first, heat, scales),
-        _side(problem.surface_2.material, heat.bulk_2, second, heat, scales),
+        _side(problem, 1, first, heat, scales),
+        _side(problem, 2, second, heat, scales),
     )
 
 
-def _side(solid: Solid, bulk: float, speed: float, heat: FilmEnergy, scales: Scales) -> Side:
+def _side(
+    problem: PointContact, number: int, speed: float, heat: FilmEnergy, scales: Scales
+) -> Side:
+    """Return one solid; its speed along x is that of the moment [m/s]."""
+    first, motion = number == 1, problem.motion
+    bulk, spin = (heat.bulk_1, motion.spin_1) if first else (heat.bulk_2, motion.spin_2)
+    solid = problem.surface_1.material if first else problem.surface_2.material
+    across = motion.velocity_of(number)[1]
     stated = (solid.conductivity, solid.density, solid.heat_capacity)
     conductivity, density, capacity = (value or 0.0 for value in stated)
-    peclet = 0.0
+    peclet = peclet_y = 0.0
     if conductivity > 0.0:
         peclet = 0.5 * speed * scales.half_width_x * density * capacity / conductivity
+        peclet_y = 0.5 * across * scales.half_width_x * density * capacity / conductivity
+    steep = abs(across) > STEEPEST_PATH * speed
     return Side(
         bulk=bulk,
         speed=speed,
+        across=across,
+        spin=spin * scales.half_width_x / speed if spin != 0.0 else 0.0,
         conductivity=conductivity,
         capacity=density * capacity,
         peclet=peclet,
-        form=source_form(heat.sources, peclet),
+        peclet_y=peclet_y,
+        form="full" if steep and across != 0.0 else source_form(heat.sources, peclet),
     )
 
 
@@ -156,7 +184,7 @@ class Solids:
                 shape,
                 grid.mirror,
                 cell,
-                side.peclet,
+                (side.peclet, side.peclet_y),
                 flux_unit * scales.half_width_x / (2.0 * np.pi * side.conductivity),
                 side.line_factor(scales, flux_unit) if side.marches else 0.0,
             )
@@ -169,6 +197,12 @@ class Solids:
             grid.dx,
             [side.line_factor(scales, flux_unit) if side.marches else 0.0 for side in both],
         )
+        x, y = grid.x[:: self.stride], (groups.ellipticity * grid.y if grid.ny > 1 else grid.y)
+        self.slowness = [side.slowness(y) for side in both]
+        self.streams = [
+            _streams(x, y[:: self.stride], side, factor, full=source is not None)
+            for side, factor, source in zip(both, self.factors, self.sources, strict=True)
+        ]
         still = np.zeros(grid.shape[::-1])
         self.rubbing, self.rises = (still, still), (still, still)
 
@@ -197,8 +231,8 @@ class Solids:
         """
         before = self.rises
         first, second = (
-            factor * line_rise(flux, self.spacing) if factor else np.zeros_like(flux)
-            for factor, flux in zip(self.factors, self.rubbing, strict=True)
+            factor * slow * line_rise(flux, self.spacing) if factor else np.zeros_like(flux)
+            for factor, slow, flux in zip(self.factors, self.slowness, self.rubbing, strict=True)
         )
         self.rises = first, second
         for wall, now, old in zip(walls, self.rises, before, strict=True):
@@ -228,9 +262,10 @@ class Solids:
         coarse = [self._coarse(flux + rubbed) for flux, rubbed in whole]
         misfits: list[Array | None] = [None, None]
         for number, (side, source) in enumerate(zip(self.both, self.sources, strict=True)):
-            if source is None:
+            if source is None and not self.streams[number]:
                 continue
-            wanted = side.bulk + source.rise(coarse[number])
+            wanted = side.bulk + (source.rise(coarse[number]) if source else 0.0)
+            wanted = wanted + self._turned(number, coarse[number])
             if side.marches:
                 walls[number][:] = self._fine(wanted) + self.rises[number]
             else:
@@ -239,6 +274,18 @@ class Solids:
             changes = self._coupled(self._coarse(conductance), misfits)
             for number, change in changes.items():
                 walls[number][:] += self._fine(change)
+
+    def _turned(self, number: int, flux: Array) -> Array:
+        """Return what paths other than lines along x add to the rise of a surface, y first [K]."""
+        streams, spacing = self.streams[number], self.stride * self.spacing
+        if not streams:
+            return np.zeros_like(flux)
+        turned, *straight = (stream.rise(flux.T) for stream in streams)
+        slow = self.slowness[number][:: self.stride]
+        if straight:  # the line along x is part of the full source
+            turned, slow = turned - straight[0], slow - 1.0
+        marched = self.factors[number] * slow * line_rise(flux.T, spacing)
+        return np.asarray(turned - marched).T
 
     def _coupled(self, conductance: Array, misfits: list[Array | None]) -> dict[int, Array]:
         """Return changes of the given surface temperatures that leave no misfit, to first order.
@@ -272,3 +319,24 @@ class Solids:
     def _fine(self, field: Array) -> Array:
         """Return a field of the coarser nodes on all of them, with y last."""
         return midpoints(field.T) if self.stride == 2 else field.T
+
+
+def _streams(
+    x: Array, y: Array, side: Side, factor: float, *, full: bool
+) -> tuple[StreamSource, ...]:
+    """Return the source along the paths of a surface; with a full source also that of its centre.
+
+    Parameters
+    ----------
+    x, y : Array
+        Nodes [a_x].
+    side, factor : Side, float
+        The solid, and the factor of its line source.
+    full : bool
+        Whether the full source of the velocity at the centre is summed.
+    """
+    if not side.streams or (full and side.spin == 0.0):
+        return ()
+    slope = side.across / side.speed
+    spins = (side.spin, 0.0) if full else (side.spin,)
+    return tuple(StreamSource(x, y, factor, slope, spin) for spin in spins)

@@ -153,7 +153,7 @@ def _of_film(result: Solution, smooth: Solution | None) -> Pictures:
             found["micro_film"] = partial(micro_film_map, smooth=smooth)
             found["rough_centre_line"] = partial(rough_centre_line, smooth=smooth)
         found["film_distribution"] = film_distribution
-    if result.shear is not None and result.problem.slide_roll_ratio != 0:
+    if result.shear is not None and result.problem.motion.slides:
         found["shear_stress"] = shear_stress_map
     if result.heat is not None:
         found["temperature"] = mid_film_temperature

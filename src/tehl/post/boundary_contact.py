@@ -16,7 +16,7 @@ from tehl.contact.boundary_contact import TOUCHING_MARGIN, ContactFilm
 from tehl.estimate.domain import domain_of, expected_bar
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import ScaledProblem
-from tehl.post.traction import cell_widths, traction
+from tehl.post.traction import cell_widths, rubbing_motion, traction
 from tehl.result import registry
 from tehl.result.solution import Solution
 
@@ -129,8 +129,8 @@ def touching(result: Solution) -> Touching | None:
     both = result.pressure + found.pressure
     meet = touching_nodes(result)
     share = float((cells * both)[meet].sum()) / result.load
-    area, motion = float(cells[meet].sum()), result.problem.motion
-    slides = result.problem.slide_roll_ratio != 0.0
+    area = float(cells[meet].sum())
+    part, speed = rubbing_motion(result, np.where(meet, cells * both, 0.0))
     return Touching(
         margin=TOUCHING_MARGIN * film.thickness,
         share=share,
@@ -141,9 +141,9 @@ def touching(result: Solution) -> Touching | None:
         area_part=area / (result.groups.shape.area * scales.half_width_x * scales.half_width_y),
         contact_pressure_max=float(found.pressure.max()),
         pressure_max=float(both.max()),
-        friction_boundary=film.friction * share if slides else 0.0,
+        friction_boundary=part * film.friction * share,
         friction_film=_film_friction(result),
-        power_boundary=film.friction * share * result.load * abs(motion.speed_1 - motion.speed_2),
+        power_boundary=film.friction * share * result.load * speed,
         patches=_patches(result, meet, cells * both, both),
         balance=float(found.balance),
     )
@@ -196,7 +196,7 @@ def largest_patches(least: float, films: SingleArray, pressures: SingleArray) ->
 
 def _film_friction(result: Solution) -> float | None:
     forces = traction(result)
-    return abs(forces.mid_film) if forces is not None and forces.credible else None
+    return forces.size if forces is not None and forces.credible else None
 
 
 def _patches(result: Solution, meet: BoolArray, loads: Array, both: Array) -> Patches | None:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.post.summit_spots import Spots, real_area, spots
-from tehl.post.traction import cell_widths, traction
+from tehl.post.traction import cell_widths, rubbing_motion, traction
 from tehl.result.solution import Solution
 
 NEGLIGIBLE_SHARE = 1e-9
@@ -64,7 +64,7 @@ def load_sharing(result: Solution) -> LoadSharing | None:
     hertz = result.groups.shape.area * scales.half_width_x * scales.half_width_y
     area = float((cells * real_area(result, found)).sum())
     bar = None if result.errors is None else result.errors.at("load_sharing.share")
-    motion = result.problem.motion
+    part, speed = rubbing_motion(result, cells * found.pressure)
     forces, middle = traction(result), result.scaled.at_origin(found.separation)
     return LoadSharing(
         share=share,
@@ -75,9 +75,9 @@ def load_sharing(result: Solution) -> LoadSharing | None:
         pressure_max=float((found.pressure + result.pressure).max()),
         separation_central=middle,
         separation_ratio=middle / float(found.rms),
-        friction_boundary=law.friction * share if result.problem.slide_roll_ratio else 0.0,
-        power_boundary=law.friction * share * result.load * abs(motion.speed_1 - motion.speed_2),
+        friction_boundary=part * law.friction * share,
+        power_boundary=law.friction * share * result.load * speed,
         spots=spots(result, found),
         balance=float(found.balance),
-        friction_film=0.0 if forces is None else abs(forces.mid_film),
+        friction_film=0.0 if forces is None else forces.size,
     )

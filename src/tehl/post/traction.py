@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.base.typing import Array
+from tehl.base.typing import Array, BoolArray
 from tehl.operators.loaded_zone import wet_part, zone_part
 from tehl.post.surroundings import Surroundings, surroundings
 from tehl.result.solution import Solution
@@ -46,12 +46,25 @@ class Traction:
     friction_power: float
     """Power that the surfaces transfer to the film in the loaded zone [W]."""
     surroundings: Surroundings | None = None
-    """Drag of the flooded oil around the loaded zone; None for starved films."""
+    """Drag of the flooded oil around the loaded zone; None for starved films, and where surfaces
+    slide across the entrainment or spin."""
+    across: float | None = None
+    """Integral of tau_zy at mid-film, over the load [-]; None if all motion is along x."""
+    rolling_across: float | None = None
+    """Rolling part along y: ``across`` less it at z = 0, plus it at z = h [-]."""
+    drilling_moment: float | None = None
+    """Moment of the mid-film stress on surface 1 about z at the centre, from x to y [N m]; that on
+    surface 2 is opposite. None if neither surface spins."""
+
+    @property
+    def size(self) -> float:
+        """Return the coefficient at mid-film of both directions together."""
+        return math.hypot(self.mid_film, self.across or 0.0)
 
     @property
     def credible(self) -> bool:
         """Whether the coefficient is physical: at most 0.1 at mid-film."""
-        return abs(self.mid_film) <= LARGEST_CREDIBLE
+        return self.size <= LARGEST_CREDIBLE
 
     @property
     def closure_error(self) -> float:
@@ -102,6 +115,10 @@ def traction(result: Solution) -> Traction | None:
         integral(stress - rubbed) for stress in (shear.surface_1, shear.mid_film, shear.surface_2)
     )
     push = integral(film * _slope(pressure, result.x))
+    power = second * motion.speed_2 - first * motion.speed_1
+    others: dict[str, float] = {}
+    if not motion.is_plain:
+        power, others = _across(result, np.where(inside, area, 0.0), meet)
     lift = integral(_slope(pressure * film, result.x) - pressure * _slope(film, result.x))
     return Traction(
         surface_1=first / load,
@@ -110,9 +127,45 @@ def traction(result: Solution) -> Traction | None:
         rolling=0.5 * push / load,
         rolling_by_film=0.5 * lift / load,
         load=load,
-        friction_power=second * motion.speed_2 - first * motion.speed_1,
-        surroundings=surroundings(result, shear, wet - area, load),
+        friction_power=power,
+        surroundings=surroundings(result, shear, wet - area, load) if motion.is_plain else None,
+        **others,
     )
+
+
+def _across(
+    result: Solution, area: Array, meet: BoolArray | bool
+) -> tuple[float, dict[str, float]]:
+    """Return the friction power [W], and what `Traction` has of motion that is not along x alone.
+
+    Parameters
+    ----------
+    result : Solution
+        With shear stresses.
+    area : (ny, nx) array
+        Area of each node in the loaded zone [m^2].
+    meet : (ny, nx) array or False
+        Where surfaces touch: there is no stress of the film.
+    """
+    shear, motion, x, y = result.shear, result.problem.motion, result.x, result.y[:, None]
+    assert shear is not None
+    pressure, film = np.maximum(result.pressure, 0.0), result.film_thickness
+    rolling = 0.5 * film * (_slope(pressure.T, result.y).T if y.size > 1 else 0.0 * pressure)
+    free = np.where(meet, 0.0, area)
+    power = 0.0
+    for number, sign in ((1, -1.0), (2, 1.0)):
+        u, v = motion.field_of(number, x, y)
+        along = getattr(shear, f"surface_{number}") - np.where(meet, shear.mid_film, 0.0)
+        sideways = np.where(meet, 0.0, shear.across) + sign * rolling
+        power += sign * float(np.sum(area * (along * u + sideways * v)))
+    found = {
+        "across": float(np.sum(free * shear.across)) / result.load,
+        "rolling_across": float(np.sum(area * rolling)) / result.load,
+    }
+    if motion.spin_1 or motion.spin_2:
+        turning = x * shear.across - y * shear.mid_film
+        found["drilling_moment"] = float(np.sum(free * turning))
+    return power, found
 
 
 def under_pressure(result: Solution) -> Array:
@@ -139,3 +192,33 @@ def _slope(field: Array, x: Array) -> Array:
     np.subtract(field[:, 2:], field[:, :-2], out=slope[:, 1:-1])
     slope *= 0.5 * (x.size - 1) / float(x[-1] - x[0])
     return slope
+
+
+def rubbing_motion(result: Solution, carried: Array) -> tuple[float, float]:
+    """Return how solids rub: the part of their friction in one direction [-], and the speed [m/s].
+
+    Parameters
+    ----------
+    result : Solution
+        With the motion of its contact.
+    carried : (ny, nx) array
+        Load of each node on solids [N].
+    """
+    motion, whole = result.problem.motion, float(carried.sum()) or 1.0
+    if motion.is_plain:
+        return float(motion.slides), abs(motion.speed_1 - motion.speed_2)
+    along, across = motion.sliding_field(result.x, result.y[:, None])
+    forces = (float((carried * part).sum()) / whole for part in sliding_direction(result))
+    speed = float((carried * np.hypot(along, across)).sum()) / whole
+    return math.hypot(*forces), speed
+
+
+def sliding_direction(result: Solution) -> tuple[Array, Array]:
+    """Return the direction of u_1 - u_2, (ny, nx) along x and y; zero where nothing slides."""
+    along, across = result.problem.motion.sliding_field(result.x, result.y[:, None])
+    speed = np.hypot(along, across)
+    first, second = (
+        np.divide(part, speed, out=np.zeros_like(speed), where=speed > 0.0)
+        for part in (along, across)
+    )
+    return first, second

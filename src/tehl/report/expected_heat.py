@@ -162,7 +162,7 @@ def expected_heat(scaled: ScaledProblem, bodies: BodyEffect | None) -> ExpectedH
     mean, largest = _heat_path(problem, film, 1.464, 0.874), _heat_path(problem, film, 2.32, 1.234)
     if mean is None or largest is None:
         return None
-    sliding, pressure = abs(problem.motion.sliding_speed), problem.hertz.pressure / _PEAK
+    sliding, pressure = problem.sliding_speed, problem.hertz.pressure / _PEAK
     assumed = not problem.temperature_coefficient > 0
     stress = ASSUMED_TRACTION * pressure
     if sliding < _SLOWEST:
@@ -213,7 +213,7 @@ def _rubbed(scaled: ScaledProblem) -> tuple[float, float]:
     force = law.friction * shared_load(scaled).share * problem.load
     solids = (problem.surface_1.material, problem.surface_2.material)
     parts = rubbing_parts([one.conductivity or 0.0 for one in solids], problem.solid_peclet)
-    power = force * abs(problem.motion.sliding_speed)
+    power = force * problem.sliding_speed
     return parts[0] * power, parts[1] * power
 
 
@@ -240,7 +240,7 @@ def _heat_path(
 
 def _shear_stress(problem: ContactProblem, path: _HeatPath, pressure: float, rate: float) -> float:
     """Return the stress [Pa] that agrees with the temperature it causes, by bisection."""
-    oil, sliding = problem.lubricant, abs(problem.motion.sliding_speed)
+    oil, sliding = problem.lubricant, problem.sliding_speed
 
     def remaining(stress: float) -> float:
         temperature = path.mean_temperature(stress * sliding)

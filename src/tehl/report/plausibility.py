@@ -243,8 +243,8 @@ def _about_film(scaled: ScaledProblem) -> Iterator[str]:
 
 
 def _about_sliding(problem: ContactProblem) -> Iterator[str]:
-    slip, pressure = abs(problem.slide_roll_ratio), problem.hertz.pressure
-    if slip > 2:
+    slip, pressure = problem.sliding_speed / problem.entrainment_speed, problem.hertz.pressure
+    if abs(problem.motion.sliding_ratio[0]) > 2:
         yield (
             f"slide_roll_ratio = {problem.slide_roll_ratio:g}: the surfaces move in opposite "
             "directions; the ratio is (u_1 - u_2) / u_m, with u_m the mean speed"
@@ -266,7 +266,11 @@ def _about_heat(problem: ContactProblem, heat: ExpectedHeat | None) -> Iterator[
             f"[thermal] is missing: shear heats the film by about {heat.largest:.2g} K, which an "
             f"isothermal {'Newtonian ' if newtonian else ''}film neglects"
         )
-    elif thermal is None and newtonian and abs(problem.slide_roll_ratio) > SLIDING:
+    elif (
+        thermal is None
+        and newtonian
+        and problem.sliding_speed > SLIDING * problem.entrainment_speed
+    ):
         yield (
             "the surfaces slide, but the film is isothermal and Newtonian: heat would thin it, and "
             "its traction is far too high"

@@ -44,7 +44,7 @@ def rows_of(result: Solution, place: str) -> Iterator[Row]:
     """
     numbers, on_grid = Following(result).numbers, Following(result.but(uncertainty={})).numbers
     for one in shown_in(place):
-        rolls = one.block == "traction" and not result.problem.slide_roll_ratio
+        rolls = one.block == "traction" and not result.problem.motion.slides
         value = None if rolls else numbers.get(one.path)
         if value is not None:
             other = dimensionless(one)

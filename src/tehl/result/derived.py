@@ -1,5 +1,6 @@
 """Quantities that follow from the numbers of a summary: of a result, or of a stored row."""
 
+import math
 from collections.abc import Callable
 
 from tehl.result.quantity import UNITS, Numbers
@@ -59,16 +60,20 @@ def friction(numbers: Numbers) -> float | None:
     if numbers.get("traction.credible") is False:
         return None
     sliding = numbers.get("traction.mid_film")
+    sliding = (
+        None if sliding is None else math.hypot(sliding, numbers.get("traction.across") or 0.0)
+    )
     if not has_solids(numbers):
-        return None if sliding is None else abs(sliding)
+        return sliding
     rubbed = _of_solids(numbers, "friction_boundary")
-    return None if rubbed is None else abs(sliding or 0.0) + rubbed
+    return None if rubbed is None else (sliding or 0.0) + rubbed
 
 
 def friction_error(numbers: Numbers) -> float | None:
     """Return the bar of friction and loss: that of the traction if only the film has friction."""
-    known: float | None = numbers.get("errors.traction_mid_film")
-    return None if has_solids(numbers) else known
+    bars = (numbers.get(f"errors.traction_{part}") for part in ("mid_film", "across"))
+    known: list[float] = [bar for bar in bars if bar is not None]
+    return None if has_solids(numbers) or not known else max(known)
 
 
 def largest_temperature(numbers: Numbers) -> float | None:

@@ -299,6 +299,25 @@ QUANTITIES: tuple[Quantity, ...] = (
     ),
     *_plain("traction", "surface_2 rolling rolling_by_film closure_error credible"),
     *_plain("traction", "friction_power_w"),
+    Quantity(
+        "traction.across",
+        name="traction_across",
+        certified="following",
+        words={
+            "axis": "traction coefficient across the entrainment",
+            "list": "traction across",
+            "report": "traction across, at mid-film",
+            "bar": "across, at mid-film",
+        },
+    ),
+    *_plain("traction", "rolling_across"),
+    Quantity(
+        "traction.drilling_moment_n_m",
+        name="drilling_moment",
+        certified="following",
+        unit="N mm",
+        words=_words("drilling moment", "axis list report", key="m_z", bar="drilling moment"),
+    ),
     *_plain("traction.surroundings", "surface_1 mid_film surface_2 friction_power_w radius_m"),
     Quantity(
         "rolling.moment_n_m",

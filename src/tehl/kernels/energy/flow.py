@@ -3,9 +3,9 @@
 The rate of shear is fluidity times stress, ``u_zeta = h phi tau_x``. With the moments about
 mid-film ``I0(zeta) = int phi`` and ``I1(zeta) = int phi (zeta - 1/2)`` from surface 1 to zeta,
 
-    u = u1 + h tau_m,x I0 + 12/lambda h^2 p_x I1,      v likewise without u1,
+    u = u1 + h tau_m,x I0 + 12/lambda h^2 p_x I1,      v likewise,
 
-and the mid-film stress of a film that does not thin follows from u = u2, v = 0 at the other wall.
+and the mid-film stress of a film that does not thin follows from u = u2, v = v2 at the other wall.
 """
 
 from tehl.base.typing import Record, Records
@@ -65,18 +65,25 @@ def moments_of_fluidity(across: Across, layers: Records) -> None:
 @helper
 def velocities(terms: Terms, line: Record, layers: Records) -> None:
     """Fill the velocities, and the mid-film stress of a block that does not thin."""
-    h, p_x, p_y = line.h, line.p_x, line.p_y
+    h, p_x, p_y, speed = line.h, line.p_x, line.p_y, line.speed_x
     wall = layers[layers.shape[0] - 1]
     over_i0, tilt = 1.0 / wall.i0, terms.poiseuille * h * wall.i1
-    tau_x, tau_y = (terms.slide / h - tilt * p_x) * over_i0, -1.0 * tilt * p_y * over_i0
+    tau_x = (line.slide_x / h - tilt * p_x) * over_i0
+    tau_y = -1.0 * tilt * p_y * over_i0
+    if not terms.plain:
+        tau_y = tau_y + line.slide_y / h * over_i0
     if line.thins[0] == 0.0:
         line.tau_x = tau_x
         line.tau_y = tau_y
     for k in range(layers.shape[0]):
         here = layers[k]
         slope = terms.poiseuille * h * h * here.i1
-        here.u = terms.speed + h * tau_x * here.i0 + slope * p_x
+        here.u = speed + h * tau_x * here.i0 + slope * p_x
         here.v = h * tau_y * here.i0 + slope * p_y
+    if not terms.plain:
+        for k in range(layers.shape[0]):
+            here = layers[k]
+            here.v = here.v + line.speed_y
 
 
 @helper

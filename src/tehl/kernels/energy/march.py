@@ -49,6 +49,11 @@ def _load_block(model: Model, fields: Fields, work: Work, place: Place) -> None:
     line.sheared = fields.sheared[i, rows]
     line.tau_x = fields.tau_x[i, rows]
     line.tau_y = fields.tau_y[i, rows]
+    terms, x, y = model.terms, fields.x[i], fields.y[rows]
+    line.slide_x = terms.slide - terms.spin * y
+    line.slide_y = terms.slide_y + terms.spin * x
+    line.speed_x = terms.speed - terms.spin_1 * y
+    line.speed_y = terms.speed_y + terms.spin_1 * x
     for k in range(layers.shape[0]):
         here = layers[k]
         here.t = fields.temperature[i + GHOSTS, k, lanes(j + GHOSTS)]

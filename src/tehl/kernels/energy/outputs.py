@@ -16,23 +16,33 @@ NEGLIGIBLE_EXCESS = 0.03  # excess of the tangent along y that does not change c
 
 
 @helper
-def _reynolds_fields(model: Model, fields: Fields, layers: Records, place: Place) -> None:
+def _reynolds_fields(
+    model: Model, fields: Fields, line: Record, layers: Records, place: Place
+) -> None:
     """Write mobility and density of the Reynolds equation, mean density, 1/n and viscosity ratio.
 
-    The density is that of the Couette flux over h u_m, ``rho* = int rho (u1 + slide I0/I0(1))``.
+    The density is that of the Couette flux over h u_m, ``rho* = int rho (u1 + slide I0/I0(1))``,
+    the mean density and slide times the odd one, ``int rho (I0/I0(1) - 1/2)``.
     """
-    terms, across, n = model.terms, model.across, layers.shape[0]
+    across, n = model.across, layers.shape[0]
     i, rows = place.i, lanes(BLOCK * place.block)
     middle = layers[n // 2]
     fields.mobility[i, rows] = mobility(across, layers)
-    per_i0 = terms.slide / layers[n - 1].i0
+    per_i0 = line.slide_x / layers[n - 1].i0
     density, mean = 0.0 * per_i0, 0.0 * per_i0
     for k in range(n):
         here = layers[k]
-        density = density + across.weights[k] * here.rho * (terms.speed + per_i0 * here.i0)
+        density = density + across.weights[k] * here.rho * (line.speed_x + per_i0 * here.i0)
         mean = mean + across.weights[k] * here.rho
     fields.density[i, rows] = density
     fields.mean_density[i, rows] = mean
+    if not model.terms.plain:
+        odd, over_i0 = 0.0 * mean, 1.0 / layers[n - 1].i0
+        for k in range(n):
+            here = layers[k]
+            odd = odd + across.weights[k] * here.rho * (over_i0 * here.i0 - 0.5)
+        fields.odd_density[i, rows] = odd
+        fields.density[i, rows] = mean + line.slide_x * odd
     fields.over_exponent[i, rows] = 1.0 / middle.exponent
     fields.effective[i, rows] = exponential(-middle.ln_eta) / middle.fluidity
 
@@ -72,6 +82,7 @@ def _mean_fields(model: Model, fields: Fields, line: Record, layers: Records, pl
     fields.mobility[i, rows] = first.rho * fluid / fields.effective[i, rows]
     fields.density[i, rows] = first.rho
     fields.mean_density[i, rows] = first.rho
+    fields.odd_density[i, rows] = 0.0
 
 
 @helper
@@ -107,7 +118,7 @@ def write_block(model: Model, fields: Fields, surfaces: Surfaces, work: Work, pl
         store_flux(model.across, surfaces.first, 0, work, place)
         store_flux(model.across, surfaces.second, 1, work, place)
     _powers(model, fields, line, layers, place)
-    _reynolds_fields(model, fields, layers, place)
+    _reynolds_fields(model, fields, line, layers, place)
     _stretches(model, fields, line, layers, place)
     if model.terms.mean == 1:
         _mean_fields(model, fields, line, layers, place)

@@ -25,6 +25,7 @@ LINE = np.dtype(
         for name in (
             *("p", "h", "p_x", "p_y", "p_t", "capacity", "conductivity", "h2_over_k", "over_scale"),
             *("sheared", "tau_x", "tau_y", "thins", "excess_y", "pull"),
+            *("slide_x", "slide_y", "speed_x", "speed_y"),
         )
     ]
     + [("terms", np.float64, (TERMS, LANES))]
@@ -32,7 +33,8 @@ LINE = np.dtype(
 """A block of rows: pressure, film, slopes of the pressure along x, y and in time, heat capacity and
 conductivity over those at ambient pressure, h^2/k, one over the stress scale; part of the shear
 heat; mid-film stress; whether the oil thins; largest relative excess of the tangent fluidity along
-y; sum of share times temperature; coefficients of the laws at these pressures."""
+y; sum of share times temperature; (u2 - u1)/u_m and u1/u_m at these places, both components;
+coefficients of the laws at these pressures."""
 LAYER = np.dtype(
     [
         (name, np.float64, (LANES,))
@@ -103,11 +105,12 @@ class Terms(NamedTuple):
     """Dimensionless numbers of the equations.
 
     ``peclet, compression, brinkman``: factors of convection, compression and shear heat;
-    ``poiseuille`` is 12/lambda; ``slide`` (u2 - u1)/u_m; ``speed`` u1/u_m; ``over_x, over_y``
-    1/dx and 1/(kappa dy); ``over_t`` weight of the present in the time derivative, 0 if
-    steady; ``w0, w1, w2`` upstream weights; ``mirror`` whether row 0 is a symmetry
-    line; ``mean`` 0 local properties, 1 mean ones in Reynolds, 2 mean ones everywhere; ``inlet``
-    temperature; ``heat`` 0 keeps the temperature.
+    ``poiseuille`` is 12/lambda; ``slide, slide_y`` (u2 - u1)/u_m and ``speed, speed_y`` u1/u_m at
+    the centre; ``spin`` (omega_2 - omega_1) a_x/u_m, ``spin_1`` that of surface 1; ``plain`` 1
+    where all of it is along x; ``over_x, over_y`` 1/dx and 1/(kappa dy); ``over_t`` weight of the
+    present in the time derivative, 0 if steady; ``w0, w1, w2`` upstream weights; ``mirror``
+    whether row 0 is a symmetry line; ``mean`` 0 local properties, 1 mean ones in Reynolds, 2 mean
+    ones everywhere; ``inlet`` temperature; ``heat`` 0 keeps the temperature.
     """
 
     peclet: float
@@ -115,7 +118,12 @@ class Terms(NamedTuple):
     brinkman: float
     poiseuille: float
     slide: float
+    slide_y: float
     speed: float
+    speed_y: float
+    spin: float
+    spin_1: float
+    plain: int
     over_x: float
     over_y: float
     over_t: float
@@ -141,11 +149,13 @@ class Surface(NamedTuple):
 
     Its temperature is ``bulk`` (nx, ny) plus ``factor`` times the integral of the flux over the
     root of the distance, with the weights of `tehl.operators.line_source.History`; ``factor`` is
-    zero if ``bulk`` is the whole temperature. ``flux`` (nx + 4, ny) into the surface is output.
+    zero if ``bulk`` is the whole temperature. ``slowness`` (ny,) is the root of the speed along x
+    at the centre over that of the row. ``flux`` (nx + 4, ny) into the surface is output.
     """
 
     bulk: Array
     factor: float
+    slowness: Array
     near: float
     next_: float
     decay: Array
@@ -164,17 +174,20 @@ class Surfaces(NamedTuple):
 class Fields(NamedTuple):
     """Fields of the film.
 
-    In: ``p, h, px, py`` (nx, ny), ``capacity, conductivity`` ratios to those at ambient pressure,
-    ``over_scale`` one over the stress scale, ``sheared`` 1, or 0 where surfaces rub in place of the
-    oil. In and out: ``temperature`` (nx + 4, n, ny + 4),
-    ``tau_x, tau_y`` mid-film stress (nx, ny). In, in a transient run: ``past`` (nx, n, ny)
-    contribution of former temperatures to the time derivative, ``pressing`` (nx, ny) time
+    In: places ``x`` (nx,) and ``y`` (ny,) in a_x; ``p, h, px, py`` (nx, ny), ``capacity,
+    conductivity`` ratios to those at ambient pressure, ``over_scale`` one over the stress scale,
+    ``sheared`` 1, or 0 where surfaces rub in place of the oil. In and out: ``temperature`` (nx + 4,
+    n, ny + 4), ``tau_x, tau_y`` mid-film stress (nx, ny). In, in a transient run: ``past`` (nx, n,
+    ny) contribution of former temperatures to the time derivative, ``pressing`` (nx, ny) time
     derivative of the pressure. Out: ``mobility, density`` of the Reynolds equation,
-    ``mean_density`` across the film, ``enthalpy_x, enthalpy_y`` fluxes, ``shear, work`` powers,
+    ``mean_density`` across the film, ``odd_density`` (nx, ny) what sliding adds to it per slide,
+    where not all is along x, ``enthalpy_x, enthalpy_y`` fluxes, ``shear, work`` powers,
     ``effective`` viscosity ratio, ``over_exponent`` 1/n at mid-film (`Heated`), ``stretch_x,
     stretch_y``: mobility of a small change along x or y over ``mobility``.
     """
 
+    x: Array
+    y: Array
     p: Array
     h: Array
     px: Array
@@ -189,6 +202,7 @@ class Fields(NamedTuple):
     mobility: Array
     density: Array
     mean_density: Array
+    odd_density: Array
     enthalpy_x: Array
     enthalpy_y: Array
     shear: Array

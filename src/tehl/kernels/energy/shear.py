@@ -3,7 +3,7 @@
 Momentum makes the stress linear across the film, ``tau(zeta) = tau_m + 12/lambda h grad p
 (zeta - 1/2)``. The law of the oil gives the rate at a stress, ``F(s) tau/eta`` with s = |tau| over
 its scale. Unknown is ``tau_m``, both components, such that the film is sheared by the sliding
-speed: ``h int rate_x = u2 - u1`` and ``h int rate_y = 0`` (docs/theory/thermal.md, shear thinning).
+speed: ``h int rate = u2 - u1``, both components (docs/theory/thermal.md, shear thinning).
 """
 
 from tehl.base.typing import Record, Records
@@ -88,7 +88,7 @@ def _stress_step(model: Model, line: Record, layers: Records) -> float:
     integrated across. A step is at most the scale plus half the
     stress. The fluidity is Newtonian. Return the largest step over the scale.
     """
-    scale, sliding = line.over_scale, model.terms.slide / line.h
+    scale, along, across = line.over_scale, line.slide_x / line.h, line.slide_y / line.h
     zero = 0.0 * scale
     rate_x, rate_y, xx, xy, yy = zero, zero, zero, zero, zero
     for k in range(layers.shape[0]):
@@ -102,8 +102,11 @@ def _stress_step(model: Model, line: Record, layers: Records) -> float:
         xx = xx + rate + more * x * x
         xy = xy + more * x * y
         yy = yy + rate + more * y * y
-    grown = _logarithmic(sliding, rate_x)
-    rate_x = rate_x - sliding
+    sliding = root(along * along + across * across)
+    whole = sliding + LEAST_SQUARED_STRESS
+    part_x, part_y = along / whole, across / whole
+    grown = _logarithmic(sliding, part_x * rate_x + part_y * rate_y)
+    rate_x, rate_y = rate_x - along, rate_y - across
     per_det = 1.0 / (xx * yy - xy * xy)
     dx = (yy * rate_x - xy * rate_y) * per_det
     dy = (xx * rate_y - xy * rate_x) * per_det

@@ -3,10 +3,11 @@
 A fast surface is heated by a line source that marches along (Jaeger 1942; Carslaw and Jaeger 1959,
 section 10.7),
 
-    T(x) - T_b = factor int q(s)/sqrt(x - s) ds.
+    T(x) - T_b = factor int q(s)/sqrt(x - s) ds,
 
-The last mesh width is integrated exactly and implicitly; the rest is a sum of exponentials, each
-updated by one multiplication per station (`tehl.operators.line_source`).
+and slower rows of a surface that spins by more. The last mesh width is integrated exactly and
+implicitly; the rest is a sum of exponentials, each updated by one multiplication per station
+(`tehl.operators.line_source`).
 """
 
 from tehl.kernels.compiled import helper
@@ -39,14 +40,15 @@ def wall_row(across: Across, surface: Surface, side: int, work: Work, place: Pla
     line, rows = work.lines[place.block], lanes(0)
     wall, sign = side * (across.zeta.shape[0] - 1), 1.0 - 2.0 * side
     past = _carry_modes(surface, side, work, place)
-    over_h = line.conductivity / line.h
+    slowness = surface.slowness[lanes(BLOCK * place.block)]
+    over_h = slowness * (line.conductivity / line.h)
     first, stop = reach(across, wall)
     for m in range(first, stop):
         weight = sign * surface.factor * surface.near * across.d1[wall, m]
         unit = 1.0 if m == wall else 0.0
         work.matrix[wall, m, rows] = unit - weight * over_h
     bulk = surface.bulk[place.i, lanes(BLOCK * place.block)]
-    work.rhs[wall, rows] = bulk + surface.factor * past
+    work.rhs[wall, rows] = bulk + (surface.factor * slowness) * past
 
 
 @helper

@@ -6,7 +6,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.post.boundary_contact import touching_nodes
-from tehl.post.traction import traction
+from tehl.post.traction import sliding_direction, traction
 from tehl.result.solution import Solution
 
 
@@ -49,7 +49,9 @@ def loads_on(result: Solution, body: int) -> SurfaceLoads:
         stress_x[touching_nodes(result)] = 0.0
     if result.asperities is not None and problem.asperities is not None:
         total += result.asperities.pressure
-    stress_x -= np.sign(problem.slide_roll_ratio) * rubbed
+    along, across = sliding_direction(result)
+    stress_x -= along * rubbed
+    stress_y -= across * rubbed
     return SurfaceLoads(total, sign * stress_x, sign * stress_y)
 
 

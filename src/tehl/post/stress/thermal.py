@@ -80,9 +80,12 @@ def heated_body(
     speed, peclet = problem.motion.speed_of(body), problem.solid_peclet[body - 1]
     if heat is None or peclet is None or not abs(peclet) >= LEAST_THERMAL_PECLET:
         return None
+    if not problem.motion.is_plain:  # its wake does not lie along x
+        return None
     solids = [problem.surface_1.material, problem.surface_2.material]
     parts = rubbing_parts([one.conductivity or 0.0 for one in solids], problem.solid_peclet)
-    rubbed = rubbing(result) * abs(problem.motion.speed_1 - problem.motion.speed_2)
+    sliding = problem.motion.sliding_field(result.x, result.y[:, None])
+    rubbed = rubbing(result) * np.hypot(*sliding)
     flux = (heat.flux_1, heat.flux_2)[body - 1] + parts[body - 1] * rubbed
     columns, last = window.columns, window.columns.stop + sides[1]
     before = max(sides[0] - columns.start, 0)

@@ -164,11 +164,13 @@ class Sources:
     """Right-hand sides: f of the Reynolds equation, g of the film equation, w of the load balance.
 
     ``history`` is the contribution of previous films to wedge and squeeze in a time step; f is
-    less by it. ``outside`` is the load beyond the edges, part of w.
+    less by it. ``drift`` is the divergence of what sliding carries beside the mean flow; f is
+    more by it. ``outside`` is the load beyond the edges, part of w.
     """
 
     reynolds: Array
     film: Array
     load: float
     history: Array | None = None
+    drift: Array | None = None
     outside: float = 0.0

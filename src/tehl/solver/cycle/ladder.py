@@ -184,7 +184,7 @@ def _rungs(problem: ContactProblem) -> tuple[Strategy, ...]:
     """Return the strategies for smooth surfaces."""
     if not problem.is_coupled:
         return SMOOTH if problem.asperities is None else BETWEEN_ASPERITIES
-    coupled = COUPLED if problem.slide_roll_ratio else COUPLED[:-1]
+    coupled = COUPLED if problem.motion.slides else COUPLED[:-1]
     if problem.asperities is None:
         return coupled
     limited = replace(COUPLED[1], relaxation=LIMITED)

@@ -191,6 +191,8 @@ class Level:
         reynolds.tangent_source(self.film, self.stencil, self.sources.reynolds)
         if self.sources.history is not None:
             self.sources.reynolds -= self.sources.history
+        if self.sources.drift is not None:
+            self.sources.reynolds += self.sources.drift
 
     # relaxation and residual
 

@@ -32,6 +32,8 @@ JUDGED = ("film_central", "film_minimum", "pressure_max")
 WITHOUT_FIRST = "The first grid is left out: each bar is the full change between the other two."
 
 AnyResult = TypeVar("AnyResult")
+ZERO_TRACTION = 1e-6
+"""Coefficient below which a traction is zero by symmetry, without a bar."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -300,11 +302,12 @@ def _quantities(result: Solution) -> dict[str, float]:
         "pressure_max": float(result.scaled.pressure.max()),
     }
     following = Following(result)
-    coupled = result.problem.is_coupled and result.problem.slide_roll_ratio != 0.0
+    coupled = result.problem.is_coupled and result.problem.motion.slides
     for one in registry.certified("following"):
         value = following.numbers.get(one.path)
         # the traction of a Newtonian film follows from the spike, which no grid resolves
-        if value is not None and (coupled or one.block != "traction"):
+        stress = coupled and abs(value or 0.0) > ZERO_TRACTION
+        if value is not None and (stress or one.block != "traction"):
             found[one.name] = value
     if following.touching is not None:  # known or not: with its bar it is
         found[registry.at("touching.share").name] = following.touching.share

@@ -200,7 +200,7 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
     """Yield the shear law if the stress at the inlet temperature exceeds that of oils."""
     problem, scales = scaled.problem, scaled.scales
     pressure = problem.hertz.mean_pressure
-    rate = abs(problem.motion.sliding_speed) / expected_film(scaled)
+    rate = problem.sliding_speed / expected_film(scaled)
     oil = problem.lubricant
     viscosity = oil.viscosity.viscosity(pressure, scales.temperature)
     stress = oil.shear.thinned(viscosity * rate, pressure)

@@ -1,6 +1,7 @@
 """Values beside the film that get error bars: pressure, traction and temperatures on each grid."""
 
 from dataclasses import asdict
+from typing import Literal
 
 import numpy as np
 
@@ -21,6 +22,7 @@ TAIL_ERROR, TAIL_OF_ZERO_EDGE = 0.002, 0.03
 """Error of the rolling moment by the oil upstream of the grid, over what that adds: twice that of
 14 lines (M = 5 to 200, L = 0 to 15) against boxes from X = -20; where the edge has no pressure, the
 film lacks that oil too."""
+Part = Literal["x", "y", "z"]
 SPIKE_FROM = 0.5
 """X downstream of which the pressure spike is searched, in Hertz half-widths."""
 
@@ -30,9 +32,10 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
 
     ``pressure_max``, ``film_mean`` over the Hertz contact, ``spike`` and its ``excess`` over Hertz
     [-]; the parts of the load on solids (`tehl.solver.physics.share`) [-]; of a rough contact
-    ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one ``traction_mid_film`` [-]; of a
-    heated film the rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with the names of
-    the powers in `tehl.result.fields.HeatBalance` [W].
+    ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one ``traction_mid_film`` and
+    ``traction_across`` [-], with spin ``drilling_moment`` over load times a_x; of a heated film the
+    rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with the names of the powers in
+    `tehl.result.fields.HeatBalance` [W].
 
     Parameters
     ----------
@@ -58,12 +61,26 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
         return found
     if state is not None and state.grid != level.grid:
         return found
-    if scaled.moment.sliding:
-        found["traction_mid_film"] = mid_film_traction(level, scaled, state)
+    found |= _sliding(level, scaled, state)
     if state is not None and state.model.terms.heat:
         powers = asdict(heat_balance(state))
         found |= _rises(state) | {f"heat_{name}": power for name, power in powers.items()}
     return found
+
+
+def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
+    """Return traction and moment of the sliding of a contact, those that there are [-]."""
+    motion = scaled.problem.motion
+    parts: dict[str, tuple[Part, float]] = {
+        "traction_mid_film": ("x", scaled.moment.sliding),
+        "traction_across": ("y", motion.sliding_ratio[1]),
+        "drilling_moment": ("z", motion.spin_1 - motion.spin_2),
+    }
+    return {
+        name: mid_film_traction(level, scaled, state, part=part)
+        for name, (part, speed) in parts.items()
+        if speed
+    }
 
 
 def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
@@ -105,7 +122,9 @@ def _spike(level: Level) -> dict[str, float]:
     return {"spike": float(pressure.flat[excess.argmax()]), "excess": float(excess.max())}
 
 
-def mid_film_stress(level: Level, scaled: ScaledProblem, state: FilmState | None) -> Array:
+def mid_film_stress(
+    level: Level, scaled: ScaledProblem, state: FilmState | None, part: Part = "x"
+) -> Array:
     """Return the stress tau_zx of the oil at mid-film, zero where surfaces touch, [-].
 
     Parameters
@@ -114,14 +133,27 @@ def mid_film_stress(level: Level, scaled: ScaledProblem, state: FilmState | None
         The grid, and the contact.
     state : FilmState or None
         Stress of a heated or shear-thinning film.
+    part : {"x", "y", "z"}
+        Also tau_zy, or the moment of both about z per area [a_x].
     """
-    found = newtonian_sliding(level, scaled) if state is None else state.view("tau_x").T.copy()
+    if state is None:
+        along, across = newtonian_sliding(level, scaled)
+    else:
+        along, across = (state.view(name).T.copy() for name in ("tau_x", "tau_y"))
+    found = along if part == "x" else across
+    if part == "z":
+        y = scaled.groups.ellipticity * level.grid.y[:, None]
+        found = level.grid.x * across - y * along
     found[level.share.meets(level)] = 0.0
     return found
 
 
 def mid_film_traction(
-    level: Level, scaled: ScaledProblem, state: FilmState | None, load: float = 1.0
+    level: Level,
+    scaled: ScaledProblem,
+    state: FilmState | None,
+    load: float = 1.0,
+    part: Part = "x",
 ) -> float:
     """Return the mid-film traction coefficient, the integral of the stress over the load [-].
 
@@ -136,8 +168,10 @@ def mid_film_traction(
         Stress of a heated or shear-thinning film.
     load : float
         Load over that of the contact [-].
+    part : {"x", "y", "z"}
+        Along x or y, or the moment about z [a_x].
     """
-    stress, scales = mid_film_stress(level, scaled, state), scaled.scales
+    stress, scales = mid_film_stress(level, scaled, state, part), scaled.scales
     wet = stress * zone_of(level.grid, scaled.groups.skew) * wet_part(level.film.p)
     area = scales.half_width_x * scales.half_width_y
     unit = stress_unit(scales) * area / (scales.load * load)

@@ -37,35 +37,43 @@ def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
     """
     grid, groups = level.grid, scaled.groups
     slope_x, _ = pressure_slopes(grid, groups, level.film.p)
-    sliding = newtonian_sliding(level, scaled)
+    sliding, across = newtonian_sliding(level, scaled)
     rolling = 6.0 / groups.lambda_bar * level.film.h * slope_x
     unit = stress_unit(scaled.scales)
     return FilmShear(
         surface_1=grid.unfold(unit * (sliding - rolling)),
         mid_film=grid.unfold(unit * sliding),
         surface_2=grid.unfold(unit * (sliding + rolling)),
-        across=np.zeros((grid.ny, grid.nx)),
+        across=grid.unfold(unit * across),
         thinning=np.ones((grid.ny, grid.nx)),
     )
 
 
-def newtonian_sliding(level: Level, scaled: ScaledProblem) -> Array:
-    """Return the mid-film stress -SRR eta/h of an isothermal Newtonian film, ``grid.shape`` [-].
+def newtonian_sliding(level: Level, scaled: ScaledProblem) -> tuple[Array, Array]:
+    """Return the mid-film stress of an isothermal Newtonian film, along x and y [-].
+
+    It is -SRR eta/h along the sliding, both of ``grid.shape``.
 
     Parameters
     ----------
     level : Level
         The film counts from the floor of the conductance on.
     scaled : ScaledProblem
-        With the slide-roll ratio and the viscosity at the inlet temperature.
+        With the motion and the viscosity at the inlet temperature.
     """
-    sliding, scales = scaled.moment.sliding, scaled.scales
-    if sliding == 0:
-        return np.zeros(level.grid.shape)
+    sliding, scales, motion = scaled.moment.sliding, scaled.scales, scaled.problem.motion
+    if sliding == 0 and motion.is_plain:
+        return np.zeros(level.grid.shape), np.zeros(level.grid.shape)
     film = np.maximum(level.film.h, level.equations.floor)
     lubricant = scaled.problem.lubricant
     eta = lubricant.viscosity.viscosity(scales.hertz_pressure * level.film.p, scales.temperature)
-    return np.asarray(-sliding * eta / scales.viscosity / film)
+    if motion.is_plain:
+        stress = np.asarray(-sliding * eta / scales.viscosity / film)
+        return stress, np.zeros_like(stress)
+    y = scales.half_width_y * level.grid.y[:, None]
+    field = motion.sliding_field(scales.half_width_x * level.grid.x, y)
+    along, across = (-part / scales.speed * eta / scales.viscosity / film for part in field)
+    return along, across
 
 
 def film_shear(state: FilmState) -> FilmShear:

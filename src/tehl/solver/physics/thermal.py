@@ -173,6 +173,7 @@ class Coupling:
             return
         self.state = None
         for level in levels:
+            level.sources.drift = None
             level.couple(None)
 
     def pack(self, levels: Sequence[Level]) -> dict[str, Array]:
@@ -306,6 +307,7 @@ class Coupling:
         before = fine.factors
         if before is None and self.damping < 1.0:
             before = properties.Factors(np.zeros(shape), *np.ones((4, *shape)))  # isothermal
+        fine.sources.drift = state.drift()
         if before is not None:
             factors = damped(before, factors, isothermal.eps, self.damping)
         self._set_factors(levels, factors)
