@@ -59,6 +59,7 @@ def test_films_are_those_of_another_program(name):
     np.testing.assert_allclose((4.0 * fine - coarse) / 3.0, wanted, rtol=2e-3)
 
 
+@pytest.mark.slow
 def test_a_slow_change_passes_through_steady_films():
     """Speed, load and radius grow by some per cent while the film passes 20 half-widths."""
     end, last = 20.0 * UNIT, {"entrainment_speed": 1.03, "load": 1.02, "radius": 1.01}
@@ -268,6 +269,7 @@ def test_a_turning_heated_run_resumes_bit_by_bit():
         np.testing.assert_array_equal(getattr(resumed.history, name), getattr(whole.history, name))
 
 
+@pytest.mark.slow
 def test_bars_of_a_reversal_contain_the_finer_run():
     turn = {"entrainment_speed": [[0.0, 1.0], [2.0 * UNIT, -1.0]], "duration": 1.5 * UNIT}
     case = line(20, 10, transient=turn | {"frames": 0})
