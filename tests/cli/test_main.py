@@ -189,7 +189,7 @@ def completed(*words: str) -> list[str]:
 
 
 def test_the_shell_completes_templates():
-    assert completed("new", "st") == ["starved", "stribeck", "starvation-curve"]
+    assert completed("new", "st") == ["starved", "stress", "stribeck", "starvation-curve"]
     assert completed("new", "") == [*templates(), *templates("studies")]
 
 

@@ -99,11 +99,6 @@ def test_a_rigid_line_is_that_of_martin():
     assert found["M002"] == pytest.approx(CITED["rigid"]["martin"], rel=1.5e-3)
 
 
-def test_what_is_not_computed_for_lines_is_refused():
-    with pytest.raises(tehl.InputError, match='"line" and dynamics exclude each other'):
-        tehl.ContactProblem(**line(20.0, 10.0).model_dump(exclude_none=True) | {"dynamics": {}})
-
-
 def test_a_boundary_film_holds_a_line_apart_or_carries_it():
     # where surfaces may touch fluxes are of second order
     oil = tehl.solve(line(20.0, 10.0), Options(points=257, wedge_order=2))

@@ -7,8 +7,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from tehl.base.typing import Array
-from tehl.contact.stress import Stress
-from tehl.post.stress.thermal import LEAST_THERMAL_PECLET
+from tehl.contact.stress import LEAST_THERMAL_PECLET, Stress
 from tehl.result.fields import BodyStress
 from tehl.result.solution import Solution
 

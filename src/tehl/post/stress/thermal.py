@@ -18,13 +18,11 @@ from scipy.fft import fftfreq, irfft2, next_fast_len, rfft2, rfftfreq
 from tehl.base.typing import Array
 from tehl.contact.heat import rubbing_parts
 from tehl.contact.materials import Solid
+from tehl.contact.stress import LEAST_THERMAL_PECLET
 from tehl.post.stress.loads import SurfaceLoads, rubbing
 from tehl.post.stress.window import Window
 from tehl.result.solution import Solution
 
-LEAST_THERMAL_PECLET = 2.0
-"""Solid Peclet number |u_s| a_x/(2 kappa_s) from which the thermal stress is computed: below it,
-heat runs ahead of the contact further than the nodes reach."""
 PERIOD_DECAY, SPREAD = 14.0, 7.5
 """Natural logarithm of what is left of the wake of the period before (1e-6), and the distance
 across the wake, in its widths sqrt(kappa x/u), at which its temperature has fallen as far."""
