@@ -3,7 +3,7 @@
 A roller drives a disc through an oil film. At the contact of a variable drive the two surfaces also
 turn against each other about the normal: they spin.
 
-**Without spin** a creep of half a per cent brings the oil to the limit of its shear stress.
+**Without spin** a creep of one per cent brings the oil near to the limit of its shear stress.
 
 **With spin** the stress at each place points against the local sliding, which turns around a pole.
 Only with more creep does the pole leave the contact, and the force comes near to the limit again;

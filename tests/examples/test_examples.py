@@ -285,3 +285,12 @@ def test_a_film_that_turns_is_trapped_and_then_mirrored():
     assert found["least film [nm]"] < 0.5 * found["minimum film before [nm]"]
     assert found["time of it after the stop [ms]"] == pytest.approx(0.6, abs=0.1)
     assert found["mirrored film over the first"] == pytest.approx(1.0, abs=0.02)
+
+
+def test_spin_takes_force_and_power_of_a_traction_drive_until_it_creeps_more():
+    table = example("traction_drive").main()
+    for creep, least, most in ((0.002, 0.2, 0.4), (0.01, 0.8, 0.95), (0.05, 0.98, 1.0)):
+        assert least < table[creep, 1000.0][0] / table[creep, 0.0][0] < most
+    moments = [table[creep, 1000.0][1] for creep in (0.002, 0.01, 0.05)]
+    assert 1.0 > moments[0] > moments[1] > moments[2] > 0.0
+    assert table[0.002, 1000.0][2] > 1.5 * table[0.002, 0.0][2]

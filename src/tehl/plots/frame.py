@@ -295,12 +295,35 @@ def dress_contact(axes: Axes, result: Solution) -> None:
 def _velocities(axes: Axes, result: Solution) -> None:
     """Draw the mean velocities of surfaces that spin on a map."""
     motion = result.problem.motion
+    x, y = _arrow_places(axes)
+    u = motion.entrainment_speed - motion.mean_spin * y / MICRO
+    _arrows(axes, (u, motion.mean_spin * x / MICRO), "white")
+
+
+def sliding_arrows(axes: Axes, result: Solution) -> None:
+    """Draw the sliding velocities u_1 - u_2 on a map, where they are not all along x.
+
+    Parameters
+    ----------
+    axes : Axes
+        Of a map in micrometres.
+    result : Solution
+        With the motion of its surfaces.
+    """
+    if not result.problem.motion.is_plain:
+        x, y = _arrow_places(axes)
+        _arrows(axes, result.problem.motion.sliding_field(x / MICRO, y / MICRO), "tab:orange")
+
+
+def _arrow_places(axes: Axes) -> tuple[Array, Array]:
     places = (np.linspace(*span, ARROWS + 2)[1:-1] for span in (axes.get_xlim(), axes.get_ylim()))
     x, y = np.meshgrid(*places)
-    u = motion.entrainment_speed - motion.mean_spin * y / MICRO
-    v = motion.mean_spin * x / MICRO
-    style: dict[str, Any] = {"color": "white", "width": 0.004, "zorder": 4}
-    arrows = axes.quiver(x, y, u, v, angles="xy", pivot="mid", **style)
+    return x, y
+
+
+def _arrows(axes: Axes, field: tuple[Array, Array], colour: str) -> None:
+    style: dict[str, Any] = {"color": colour, "width": 0.004, "zorder": 4}
+    arrows = axes.quiver(*_arrow_places(axes), *field, angles="xy", pivot="mid", **style)
     arrows.set_path_effects(outline("0.3", 1.4))
 
 

@@ -29,6 +29,7 @@ from tehl.plots.frame import (
     mark_levels,
     nice_levels,
     shape,
+    sliding_arrows,
     window_part,
     window_places,
 )
@@ -207,11 +208,15 @@ def shear_stress_map(
         f"SRR = {result.problem.slide_roll_ratio:.4g}; traction {traction.mid_film:.4g} "
         f"at mid-film, {traction.surface_1:.4g} and {traction.surface_2:.4g} on surfaces 1 and 2"
     )
+    if traction.across is not None:
+        note += f"\nacross {traction.across:.4g}; orange: sliding of surface 1 over surface 2"
+    if traction.drilling_moment is not None:
+        note += f"; drilling moment {1e3 * traction.drilling_moment:.4g} N mm"
     stress = np.hypot(shear.mid_film, shear.across) * 1e-6
     label = "magnitude of the shear stress at mid-film [MPa]"
-    return _map_from_zero(
-        map_axes(result, note, ax=ax, title=title), result, stress, label, lined=True
-    )
+    axes = map_axes(result, note, ax=ax, title=title)
+    sliding_arrows(axes, result)
+    return _map_from_zero(axes, result, stress, label, lined=True)
 
 
 def asperity_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
