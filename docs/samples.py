@@ -17,6 +17,7 @@ COMMANDS = {
     "mixed": ("mixed", ()),
     "bearing": ("bearing", ("--plot", "pictures")),
     "gear": ("gear-ellipse", ("--plot", "pictures")),
+    "rib": ("rib", ("--plot", "pictures")),
 }
 """By name of the sample: its template, and options of the solve."""
 EXAMPLE = Path(__file__).parents[1] / "examples" / "bearing_list.py"

@@ -9,7 +9,7 @@ _NAMES = {
     "cases": (
         *("ball-on-disc", "moes", "bearing", "gear-ellipse", "line", "rough", "thermal", "dimple"),
         *("data-sheet", "passing-dent", "starved", "grease-decay", "mixed", "boundary-film"),
-        *("gear-mesh", "reversal", "stress", "dynamics", "hypoid", "spin"),
+        *("gear-mesh", "reversal", "stress", "dynamics", "hypoid", "spin", "rib"),
     ),
     "studies": (
         "traction-curve",
