@@ -236,6 +236,14 @@ def test_the_rolling_friction_of_lines_hardly_depends_on_the_load():
     assert table[15.0, 2.5] > 1.1 * table[15.0, 10.0]
 
 
+def test_a_tilted_roller_carries_on_one_side():
+    straight, tilted = example("roller").main().values()
+    assert straight.film.central == pytest.approx(tilted.film.central, rel=0.02)
+    assert tilted.film.minimum < 0.98 * straight.film.minimum
+    loads = tilted.pressure.sum(axis=1)
+    assert loads[: loads.size // 2].sum() > 0.55 * loads.sum()
+
+
 def test_a_bearing_list_has_its_films():
     table = example("bearing_list").main()
     assert list(table["status"]) == ["converged", "converged"]

@@ -14,7 +14,8 @@ from tehl.operators.deformation import (
     LineDeformation,
     choose,
 )
-from tehl.operators.film import dry_pressure, gap
+from tehl.operators.dry import dry_pressure
+from tehl.operators.film import gap
 from tehl.operators.influence import influence_of
 from tehl.operators.multilevel import MultilevelDeformation
 from tests.operators.contacts import contact_groups, grid_of

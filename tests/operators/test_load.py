@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl.operators.film import dry_pressure
+from tehl.operators.dry import dry_pressure
 from tehl.operators.load import Load
 from tests.operators.contacts import contact_groups, grid_of
 

@@ -46,8 +46,9 @@ LARGEST_DOMAIN_EDGE = 1e3
 """Hertz half-widths within which a domain must stay."""
 
 
-LINE_WIDTH = (-0.5, 0.5)
-"""Side edges of a line contact: its width of one metre, in units of one metre."""
+LINE_WIDTH, ROLLER_ENDS = (-0.5, 0.5), (-1.0, 1.0)
+"""Side edges of a line contact: its width of one metre, in units of one metre; and of a roller, in
+units of half its length."""
 
 
 class Domain(Table):
@@ -60,7 +61,7 @@ class Domain(Table):
     @model_validator(mode="after")
     def _must_contain_the_contact(self) -> Self:
         named = (("x", self.x), ("y", self.y))
-        for name, edges in named[: 1 if self.y == LINE_WIDTH else 2]:
+        for name, edges in named[: 1 if self.y in (LINE_WIDTH, ROLLER_ENDS) else 2]:
             if fault := _fault_of_edges(*edges):
                 raise ValueError(f"{name} = [{edges[0]:g}, {edges[1]:g}]: {fault}")
         return self

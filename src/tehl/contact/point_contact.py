@@ -7,6 +7,7 @@ from pydantic import AfterValidator, model_validator
 
 from tehl.base.table import Table
 from tehl.base.units import (
+    Angle,
     AngularVelocity,
     Direction,
     Force,
@@ -28,6 +29,8 @@ from tehl.contact.dynamics import Dynamics
 from tehl.contact.heat import FilmEnergy, Thermal
 from tehl.contact.hertz import HertzContact
 from tehl.contact.materials import NamedSolid, reduced_modulus
+from tehl.contact.profile import Profile, Tabulated
+from tehl.contact.roller import Roller
 from tehl.contact.shape import LINE, Ellipse, Shape
 from tehl.contact.stress import Stress
 from tehl.contact.summits import Asperities
@@ -36,6 +39,9 @@ from tehl.contact.transient import Transient
 from tehl.lubricant import NamedLubricant
 from tehl.roughness import AnyRoughness, Smooth
 from tehl.roughness.model import with_rms
+
+LARGEST_TILT = 0.05
+"""Largest tilt of a roller [rad]: real ones have 0.0001 to 0.005."""
 
 
 class _WithRadii(Table):
@@ -142,11 +148,7 @@ class Contact(_WithRadii):
     """Shape, load and motion of the contact."""
 
     other_words: ClassVar = {
-        **dict.fromkeys(
-            ("width", "length"),
-            'a contact without ends has type = "line" and load_per_length; one of finite length is '
-            "an ellipse by radius_x and radius_y",
-        ),
+        "width": 'a roller has type = "roller" and length, a contact without ends type = "line"',
         "speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
         "sliding_speed": "did you mean slide_roll_ratio, (u_1 - u_2) over the mean speed?",
         **dict.fromkeys(
@@ -169,18 +171,26 @@ class Contact(_WithRadii):
         "radius_y": "ry r_y radius_2",
         "radius": "r",
         "entrainment_angle": "angle entrainment_direction theta",
+        "length": "effective_length l_we roller_length",
+        "tilt": "misalignment misalignment_angle",
         "lubricant.temperature": "temperature oil_temperature",
     }
 
-    type: Literal["point", "line"] = "point"
-    """A circle or an ellipse, or a line without ends: then nothing changes across the entrainment,
-    and forces and powers are those of one metre."""
+    type: Literal["point", "line", "roller"] = "point"
+    """A circle or an ellipse; a line without ends: then nothing changes across the entrainment, and
+    forces and powers are those of one metre; or a roller of finite ``length``."""
     radius: Length | None = None
-    """Reduced radius of a circular or of a line contact [m]."""
+    """Reduced radius of a circular contact, or along the entrainment of a line or a roller [m]."""
     radius_x: Length | None = None
     radius_y: Length | None = None
     """Reduced radii along and across entrainment [m]. Without any radius here both surfaces state
     theirs."""
+    length: Length | None = None
+    """Of a roller [m]: that on which it touches its raceway, without chamfers."""
+    profile: Profile | None = None
+    """How far a roller drops towards its ends; None is straight."""
+    tilt: Angle = 0.0
+    """Angle between the axes of a roller and its raceway, by which the gap opens along y [rad]."""
     load: Force | None = None
     load_per_length: ForcePerLength | None = None
     hertz_pressure: Pressure | None = None
@@ -206,9 +216,10 @@ class Contact(_WithRadii):
         own, other = ("load_per_length", "load") if self.is_line else ("load", "load_per_length")
         if getattr(self, other) is not None:
             raise ValueError(f"states {other}: a {self.type} contact takes {own}")
-        if self.is_line and self.radius_x is not None:
-            raise ValueError("states radius_x and radius_y: a line contact takes radius")
-        if self.is_line and self.entrainment_angle != 0.0:
+        if self.has_lines and self.radius_x is not None:
+            raise ValueError(f"states radius_x and radius_y: a {self.type} contact takes radius")
+        self._check_roller()
+        if self.has_lines and self.entrainment_angle != 0.0:
             raise ValueError(
                 "states entrainment_angle: along a line contact nothing changes, so only the speed "
                 "across it makes a film; state that alone"
@@ -217,10 +228,35 @@ class Contact(_WithRadii):
         self._exactly_one("entrainment_speed", "moes_speed")
         return self
 
+    def _check_roller(self) -> None:
+        """Check that a roller has a length, and no other contact what rollers have."""
+        if self.type != "roller":
+            stated = [name for name in ("length", "profile", "tilt") if getattr(self, name)]
+            if stated:
+                raise ValueError(
+                    f'states {" and ".join(stated)}: only a contact with type = "roller" has ends'
+                )
+            return
+        if self.length is None:
+            raise ValueError('needs length, on which the roller touches, such as "10 mm"')
+        if not abs(self.tilt) <= LARGEST_TILT:
+            raise ValueError(
+                f"states tilt = {self.tilt:g} rad: rollers tilt by some 0.001 rad; a bare number "
+                'is in radians, write "0.05 deg"'
+            )
+        fault = self.profile.fault(self.length) if isinstance(self.profile, Tabulated) else ""
+        if fault:
+            raise ValueError(f"states profile.{fault}")
+
     @property
     def is_line(self) -> bool:
         """Whether it is a line contact."""
         return self.type == "line"
+
+    @property
+    def has_lines(self) -> bool:
+        """Whether it is a line contact or a roller, with a radius along the entrainment alone."""
+        return self.type != "point"
 
     def _exactly_one(self, *names: str) -> None:
         stated = [name for name in names if getattr(self, name) is not None]
@@ -286,7 +322,7 @@ class PointContact(Table):
             return self.contact.radii
         if first is None or second is None:
             raise ValueError("no radii")
-        if self.contact.is_line:
+        if self.contact.has_lines:
             return Radii(x=reduced_radius(first.x, second.x), y=math.inf)
         return reduced_radii(first, second)
 
@@ -305,6 +341,9 @@ class PointContact(Table):
         """Return the shape of the contact."""
         if self.contact.is_line:
             return LINE
+        contact = self.contact
+        if contact.length is not None:
+            return Roller(length=contact.length, profile=contact.profile, tilt=contact.tilt)
         return Ellipse.of(self.radii)
 
     @property
@@ -506,7 +545,9 @@ class PointContact(Table):
         if self.radii.twist or not self.motion.is_plain:
             return False
         supply = self.supply is None or self.supply.is_even_in_y
-        surfaces = self.surface_1.roughness, self.surface_2.roughness
+        surfaces, shape = (self.surface_1.roughness, self.surface_2.roughness), self.shape
+        if isinstance(shape, Roller) and not shape.is_even:
+            return False
         return supply and all(roughness.is_even_in_y for roughness in surfaces)
 
     @property

@@ -24,6 +24,7 @@ from tehl.contact.bodies import direction, reduced_radius
 from tehl.contact.boundary_contact import THICKEST_BOUNDARY_FILM, THINNEST_BOUNDARY_FILM
 from tehl.contact.heat import LEAST_LINE
 from tehl.contact.point_contact import Contact, PointContact, Surface
+from tehl.contact.roller import Roller
 from tehl.contact.summits import GreenwoodTripp
 from tehl.contact.transient import COURSES, MOTION
 from tehl.lubricant.registered import package_of
@@ -46,6 +47,8 @@ SOLID_PART = (
 LARGEST_TURN = 0.8
 """Largest spin of a heated surface times a_y over its speed: beyond it rows of the contact have too
 little speed along x for their heat to be followed from station to station."""
+LEAST_LENGTH = 3.0
+"""Least length of a roller over the width of its contact."""
 LARGEST_RATIO = 1e3
 """Largest ratio of the reduced radii, either way: beyond it the contact is a line contact."""
 
@@ -72,6 +75,7 @@ def check(problem: PointContact) -> None:
     _check_classes(problem, "")
     check_radii(problem)
     check_line(problem)
+    check_roller(problem)
     check_temperatures(problem)
     check_heat(problem)
     check_transient(problem)
@@ -88,7 +92,7 @@ def check(problem: PointContact) -> None:
             "coefficient; give contact.entrainment_speed"
         )
     ratio = problem.radii_of_axes.y / problem.radii_of_axes.x
-    if not problem.contact.is_line and not 1.0 / LARGEST_RATIO <= ratio <= LARGEST_RATIO:
+    if not problem.contact.has_lines and not 1.0 / LARGEST_RATIO <= ratio <= LARGEST_RATIO:
         raise ValueError(
             f"radius_y / radius_x = {ratio:.3g} is a line contact, not a point contact: it must "
             f'be between {1.0 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}, or contact.type "line"'
@@ -282,8 +286,8 @@ def check_motion(problem: PointContact) -> None:
             law is not None and one_is_rougher and getattr(law, "rms", None) is None,
             "the rougher surface carries oil along x alone; state asperities.rms of both together",
         ),
-        'contact.type = "line"': (
-            contact.is_line and turned != ["sliding_angle"],
+        f'contact.type = "{contact.type}"': (
+            contact.has_lines and turned != ["sliding_angle"],
             "with spin the speed changes along a line",
         ),
     }
@@ -317,7 +321,10 @@ def check_spin(problem: PointContact) -> None:
     if problem.contact.spin_1 + problem.contact.spin_2 == 0.0:
         return
     excluded = {
-        'contact.type = "line"': (problem.contact.is_line, "the speed changes along a line"),
+        f'contact.type = "{problem.contact.type}"': (
+            problem.contact.has_lines,
+            "the speed changes along a line",
+        ),
         "transient": (problem.transient is not None, "heights and films move along x alone"),
         "contact_film": (problem.contact_film is not None, "oil is conserved along x alone"),
         "supply": (problem.conserves_oil, "oil in cavities is conserved along x alone"),
@@ -409,6 +416,24 @@ def check_stress(problem: PointContact) -> None:
             )
 
 
+def check_roller(problem: PointContact) -> None:
+    """Check that a roller is longer than its contact is wide."""
+    shape = problem.shape
+    if not isinstance(shape, Roller):
+        return
+    if problem.dynamics is not None:
+        raise ValueError(
+            'contact.type = "roller" and dynamics exclude each other: the response of the oil '
+            "upstream of a roller is not known"
+        )
+    width = 2.0 * problem.hertz.half_width_x
+    if not shape.length >= LEAST_LENGTH * width:
+        raise ValueError(
+            f"contact.length = {1e3 * shape.length:.4g} mm: less than {LEAST_LENGTH:g} times the "
+            f"width of the contact, {1e3 * width:.4g} mm; rollers are longer, check length and load"
+        )
+
+
 def check_dynamics(problem: PointContact) -> None:
     """Check that the film has one steady state, which oil alone carries."""
     excluded = {
@@ -445,7 +470,7 @@ def check_radii(problem: PointContact) -> None:
     for key, radii in zip(SURFACES, on_surfaces, strict=True):
         if radii is None:
             raise ValueError(f'{key}.radius is missing: give it ("inf" is flat)')
-    for axis in ("x",) if problem.contact.is_line else ("x", "y"):
+    for axis in ("x",) if problem.contact.has_lines else ("x", "y"):
         try:
             reduced_radius(*(getattr(radii, axis) for radii in on_surfaces))
         except ValueError as error:

@@ -12,6 +12,7 @@ from typing import Protocol
 from tehl.base.typing import Array, np
 from tehl.contact.bodies import Radii
 from tehl.contact.hertz import HertzContact, axes_of, ellipticity, hertz_contact, load_of_pressure
+from tehl.contact.options import LINE_WIDTH
 
 
 class Shape(Protocol):
@@ -28,6 +29,14 @@ class Shape(Protocol):
     @property
     def across(self) -> float:
         """Curvature of the gap along Y, over that along X [-]."""
+
+    @property
+    def as_line(self) -> bool:
+        """Whether its middle is a line contact under the mean load: film formulas, inlet."""
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Side edges of the domain of a line or of a roller, in half-widths."""
 
     def gap(self, x: Array, y: Array) -> Array:
         """Return the undeformed gap H [-] at X, Y that broadcast."""
@@ -74,6 +83,8 @@ class Ellipse:
     """s of the rim, and C of the gap X^2/2 + C X Y + D kappa^2 Y^2/2; zero on the axes."""
 
     speed_power = 0.75
+    as_line = False
+    sides = LINE_WIDTH
 
     @classmethod
     def of(cls, radii: Radii) -> "Ellipse":
@@ -255,6 +266,8 @@ class Line:
     area = 2.0
     speed_power = 0.5
     across = 0.0
+    as_line = True
+    sides = LINE_WIDTH
 
     def gap(self, x: Array, y: Array) -> Array:
         """Return X^2/2.

@@ -54,7 +54,7 @@ class Supply(Table):
         if not isinstance(value, str):
             return value
         folder = (info.context or {}).get("folder") or Path()
-        return _read_profile(Path(folder) / value)
+        return read_pairs(Path(folder) / value, ("y", "layer"), "y [mm], layer [um]")
 
     @model_validator(mode="after")
     def _once(self) -> Self:
@@ -107,11 +107,17 @@ def _check_layer(key: str, layer: float) -> None:
         )
 
 
-def _read_profile(path: Path) -> list[tuple[float, float]]:
-    """Return the places and layers of a CSV file [m]; raise ValueError with one sentence."""
-    pairs, units = read_columns(path, ("y", "layer"), "y [mm], layer [um]")
+def read_pairs(path: Path, names: tuple[str, str], header: str) -> list[tuple[float, float]]:
+    """Return the two columns of a CSV file [m]; raise ValueError with one sentence.
+
+    Parameters
+    ----------
+    path, names, header : Path, (str, str), str
+        The file, what its columns are, and an example of its header.
+    """
+    pairs, units = read_columns(path, names, header)
     first, second = (quantity(Place).parse(f"1 {unit}") for unit in units or ("m", "m"))
-    return [(y * first, layer * second) for y, layer in pairs]
+    return [(y * first, value * second) for y, value in pairs]
 
 
 class Cavitation(Table):

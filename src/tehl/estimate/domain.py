@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from tehl.base.errors import InputError
 from tehl.contact.moment import courses_of, moments_of
-from tehl.contact.options import LINE_WIDTH, USUAL_PLAIN_ERROR, Domain, Options
+from tehl.contact.options import LINE_WIDTH, ROLLER_ENDS, USUAL_PLAIN_ERROR, Domain, Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.shape import LINE
 from tehl.estimate.duration import duration_of
@@ -60,6 +60,11 @@ margin on the gap at the edges."""
 LEAST_LAMBDA = 0.3
 """Film over sigma below which asperities make bars no smaller."""
 FAMILIES = tuple(2**k * n + 1 for k in range(2, 9) for n in (16, 20, 24, 28))
+ROLLER_NODES, LEAST_ROWS = tuple(one for one in FAMILIES if one > 128), 128
+"""Numbers of nodes along a roller's entrainment, and least intervals along it: its ends."""
+ROLLER_ERROR = 0.05
+"""Relative error of the film of a roller that is reached by default: at its ends the smallest film
+changes by some percent with each finer grid."""
 FAVOURED = tuple(nodes for nodes in FAMILIES if nodes > 80 and (nodes - 1) % 7)
 """Those of a wedge of third order: their coarsest grids cost least."""
 """Nodes from which `expected_points` chooses; at least three grids."""
@@ -106,8 +111,8 @@ def recommended_domain(groups: Groups, error: float = USUAL_PLAIN_ERROR) -> Doma
         Relative error of the film that is acceptable [-].
     """
     along, across = gap_widths(groups)
-    if groups.shape is LINE:
-        return line_domain(along, error)
+    if groups.shape.as_line:
+        return line_domain(along, error, groups.shape.sides)
     larger = max(USUAL_PLAIN_ERROR / error, 1.0) ** (1.0 / 3.0)
     wide = WIDE_INLET[0] * max(groups.ellipticity, 1.0) ** WIDE_INLET[1]
     inlet = larger * max(INLET[0], wide, INLET[1] * along)
@@ -131,7 +136,7 @@ def far_field_error(groups: Groups, domain: Domain) -> float:
         Edges in Hertz half-widths.
     """
     along, across = gap_widths(groups)
-    if groups.shape is LINE:
+    if groups.shape.as_line:
         return line_field_error(along, domain)
     inlet, side = -domain.x[0], min(-domain.y[0], domain.y[1])
     part = FAR_SIDES if groups.ellipticity >= SLENDER else FAR_FIELD
@@ -157,7 +162,7 @@ def domain_error(groups: Groups, domain: Domain) -> float:
     domain : Domain
         Edges in Hertz half-widths.
     """
-    if groups.shape is LINE:
+    if groups.shape.as_line:
         return line_edge_error(gap_widths(groups)[0], domain)
     stretch = math.sqrt(groups.shape.across)
     side = stretch * min(-domain.y[0], domain.y[1])
@@ -197,7 +202,7 @@ def expected_bar(
     film : float or None
         Central film, if another than that of smooth flooded contacts [-]: `film_to_resolve`.
     """
-    if groups.shape is LINE:
+    if groups.shape.as_line:
         return line_bar(groups, domain, nodes)
     width = (domain.x[1] - domain.x[0]) / (nodes - 1)
     film = expected_central_film(groups) if film is None else film
@@ -235,6 +240,9 @@ def expected_points(  # noqa: PLR0913 (one formula)
     """
     if groups.shape is LINE:
         return line_points(groups, domain, error, least)
+    if groups.shape.as_line:
+        bars = ((nodes, line_bar(groups, domain, nodes)) for nodes in ROLLER_NODES)
+        return next((n for n, bar in bars if n > least and bar <= error), ROLLER_NODES[-1])
     left = _left_to_the_mesh(groups, domain, error)
     bars = (
         (nodes, expected_bar(groups, domain, nodes, is_coupled=is_coupled, film=film))
@@ -276,6 +284,8 @@ def settled(problem: ContactProblem, options: Options) -> Options:
     """
     if problem.contact.is_line:
         return _of_one_row(problem, options)
+    if problem.contact.has_lines:
+        options = _between_ends(problem, options)
     if options.domain != "auto" and options.domain.y == LINE_WIDTH:
         raise InputError("numerics.domain.y is missing: give the side edges, such as [-3.0, 3.0]")
     if isinstance(options.points, tuple) and options.points[1] == 1:
@@ -284,6 +294,28 @@ def settled(problem: ContactProblem, options: Options) -> Options:
         return options
     found = options.points == "auto" and _is_smooth(problem)
     return options.model_copy(update={"extrapolate": found})
+
+
+def _between_ends(problem: ContactProblem, options: Options) -> Options:
+    """Return the options of a roller, whose domain ends where it does.
+
+    At its ends the pressure is steep, and the film does not show one order. The wedge is of third
+    order as in line contacts.
+    """
+    domain = options.domain
+    changes: dict[str, object] = {"extrapolate": bool(options.extrapolate)}
+    if options.wedge_order is None and options.extrapolate is None and _is_smooth(problem):
+        changes["wedge_order"] = 3
+    if options.error is None and options.points == "auto":
+        changes["error"] = ROLLER_ERROR
+    options = options.model_copy(update=changes)
+    if domain == "auto" or domain.y == ROLLER_ENDS:
+        return options
+    if domain.y != LINE_WIDTH:
+        raise InputError(
+            "numerics.domain.y: the nodes of a roller end where it does; state domain.x alone"
+        )
+    return options.model_copy(update={"domain": domain.model_copy(update={"y": ROLLER_ENDS})})
 
 
 def _of_one_row(problem: ContactProblem, options: Options) -> Options:
@@ -349,6 +381,8 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
         film=film_to_resolve(scaled),
         extrapolate=bool(options.extrapolate),
     )
+    if scaled.problem.contact.length is not None:
+        return options.on_points(nodes, max((nodes - 1) // 2, LEAST_ROWS) + 1)
     return options.on_points(nodes, 1 if is_line else nodes)
 
 

@@ -18,7 +18,6 @@ import math
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from tehl.contact.shape import LINE
 from tehl.estimate.formula import Asymptotes, FilmRatio, Formula, Regime
 from tehl.estimate.line_formulas import LINE_FORMULAS, line_asymptotes, moes_line
 from tehl.estimate.scaling import Groups, ScaledProblem, Scales
@@ -98,7 +97,7 @@ def asymptotes(groups: Groups) -> Asymptotes:
 
     Those of a line contact are Moes', and have no such film.
     """
-    if groups.shape is LINE:
+    if groups.shape.as_line:
         return line_asymptotes(groups)
     load, speed, d = groups.M, groups.L, groups.radius_ratio
     shape = 1.0 + 0.006 * math.log(d) + 0.63 * d ** (4 / 7)
@@ -145,7 +144,7 @@ def expected_central_film(groups: Groups) -> float:
 
     That of Nijenbanning, Venner and Moes [3]_, of a line contact that of Moes.
     """
-    formula = moes_line if groups.shape is LINE else nijenbanning_venner_moes
+    formula = moes_line if groups.shape.as_line else nijenbanning_venner_moes
     return formula(groups).central / hertz_ratio_squared(groups)
 
 
@@ -227,7 +226,7 @@ def film_estimates(groups: Groups, scales: Scales) -> tuple[FilmEstimate, ...]:
         Its film scale a_x^2/R_x [m] converts H to metres.
     """
     unit, metres, estimates = hertz_ratio_squared(groups), scales.film_thickness, []
-    for formula in LINE_FORMULAS if groups.shape is LINE else FORMULAS:
+    for formula in LINE_FORMULAS if groups.shape.as_line else FORMULAS:
         film = formula.film(groups)
         central = film.central / unit
         minimum = None if film.minimum is None else film.minimum / unit

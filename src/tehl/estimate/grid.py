@@ -5,7 +5,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tehl.base.typing import Array
-from tehl.contact.options import Domain
+from tehl.contact.options import ROLLER_ENDS, Domain
+
+LONG_STRETCH = 5.0
+"""Length of a cell along y over that along x beyond which columns are halved before lines: an error
+that changes from line to line is smooth along x there, and a grid with fewer lines lacks it."""
+LEAST_INTERVALS = 16
+"""Fewest intervals of a coarsest grid; with long cells, of the stored lines."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -55,14 +61,28 @@ class Grid:
     def inner(self) -> tuple[slice, slice]:
         """Rows and columns of the nodes that are on no edge; the row of a line is on none."""
         rows = slice(0 if self.mirror or self.ny == 1 else 1, max(self.shape[0] - 1, 1))
-        return rows, slice(1, self.nx - 1)
+        return slice(None) if self.is_closed else rows, slice(1, self.nx - 1)
 
     @property
     def edge_rows(self) -> tuple[int, ...]:
-        """Stored rows on side edges, where nothing is solved; a line contact has none."""
-        if self.ny == 1:
+        """Stored rows on side edges, where nothing is solved; lines and rollers have none."""
+        if self.ny == 1 or self.is_closed:
             return ()
         return (-1,) if self.mirror else (0, -1)
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether it ends with a roller: its first and last lines have half a width and no edge."""
+        return self.domain.y == ROLLER_ENDS and self.ny > 1
+
+    @property
+    def widths(self) -> Array:
+        """Width that each stored line stands for, in a_y, (rows,): half of it on both ends."""
+        if self.ny == 1:
+            return np.array([self.dy])
+        found = np.full(self.shape[0], (2.0 if self.mirror else 1.0) * self.dy)
+        found[[0, -1]] *= 0.5
+        return found
 
     def unfold(self, field: Array) -> Array:
         """Return ``field`` on the full domain, (ny, nx)."""
@@ -108,4 +128,76 @@ def halved_grids(finest: Grid) -> list[Grid]:
     grids = [finest]
     while grids[0].can_coarsen():
         grids.insert(0, grids[0].coarser())
+    return grids
+
+
+def coarsest_of(finest: Grid, widest: float) -> Grid:
+    """Return the coarsest grid of one with long cells.
+
+    Parameters
+    ----------
+    finest : Grid
+        The grid of the result.
+    widest : float
+        Largest mesh width along x [half-widths].
+    """
+    grid = finest
+    while (half := halved(grid, (1, 0))) and half.dx <= widest:
+        grid = half
+    while (half := halved(grid, (0, 1))) and half.shape[0] > LEAST_INTERVALS:
+        grid = half
+    return grid
+
+
+def halved(grid: Grid, axes: tuple[int, int]) -> Grid | None:
+    """Return the grid with columns or lines halved, None if that leaves less than 16 intervals.
+
+    Parameters
+    ----------
+    grid : Grid
+        With intervals along x and y.
+    axes : (int, int)
+        1 for x and y if it is halved.
+    """
+    nx, ny = ((n - 1) >> axis for n, axis in zip(grid.points, axes, strict=True))
+    odd = any((n - 1) % 2 and axis for n, axis in zip(grid.points, axes, strict=True))
+    if odd or min(nx, ny) < LEAST_INTERVALS or (grid.mirror and ny % 2):
+        return None
+    return replace(grid, nx=nx + 1, ny=ny + 1)
+
+
+def cycle_grids(finest: Grid, coarsest: Grid) -> list[Grid]:
+    """Return the grids of a cycle where cells are long, coarsest first: columns are halved first.
+
+    Parameters
+    ----------
+    finest, coarsest : Grid
+        The ends of the list.
+    """
+    grids = [finest]
+    while grids[0] != coarsest:
+        columns = grids[0].nx > coarsest.nx
+        half = halved(grids[0], (int(columns), int(not columns)))
+        assert half is not None  # the coarsest grid follows by halving
+        grids.insert(0, half)
+    return grids
+
+
+def ladder_of(finest: Grid, coarsest: Grid) -> list[Grid]:
+    """Return the grids of full multigrid where cells are long, coarsest first.
+
+    The last ones differ by halving both columns and lines, so that they show the order of the
+    errors; before them comes what is left of one of both.
+
+    Parameters
+    ----------
+    finest, coarsest : Grid
+        The ends of the list.
+    """
+    grids = [finest]
+    while grids[0] != coarsest:
+        grid = grids[0]
+        half = halved(grid, (int(grid.nx > coarsest.nx), int(grid.ny > coarsest.ny)))
+        assert half is not None
+        grids.insert(0, half)
     return grids

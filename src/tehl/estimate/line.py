@@ -3,7 +3,7 @@
 import math
 
 from tehl.base.typing import np
-from tehl.contact.options import LINE_WIDTH, USUAL_PLAIN_ERROR, Domain
+from tehl.contact.options import LINE_WIDTH, USUAL_PLAIN_ERROR, Domain, Interval
 from tehl.contact.shape import LINE
 from tehl.estimate.scaling import Groups
 
@@ -28,7 +28,7 @@ LINE_BAR, LINE_NODES = 0.06, tuple(2**k * n + 1 for k in range(5, 10) for n in (
 """Error of the film over M h^2, and numbers of nodes: on fewer a solve is hardly cheaper."""
 
 
-def line_domain(along: float, error: float) -> Domain:
+def line_domain(along: float, error: float, sides: Interval = LINE_WIDTH) -> Domain:
     """Return the domain for a film with a relative ``error``.
 
     Parameters
@@ -37,15 +37,17 @@ def line_domain(along: float, error: float) -> Domain:
         Where the undeformed gap is the central film [half-widths].
     error : float
         Relative error of the film that is acceptable [-].
+    sides : (float, float)
+        Side edges [half-widths].
     """
     thick = along * (FIELD_EDGE_ERROR / (INLET_ERROR_PART * min(error, USUAL_PLAIN_ERROR))) ** (
         1.0 / FIELD_EDGE_POWER
     )
     inlet = math.ceil(10.0 * max(LEAST_LINE_INLET, thick)) / 10.0
-    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=LINE_WIDTH)
+    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=sides)
 
 
-def line_supplied_domain(ratio: float, film: float) -> Domain:
+def line_supplied_domain(ratio: float, film: float, sides: Interval = LINE_WIDTH) -> Domain:
     """Return a domain that contains the film of a starved contact.
 
     In the oil of a rigid cylinder the gap at the meniscus is the film times 1 + 2.3/(1 - r); here
@@ -57,13 +59,15 @@ def line_supplied_domain(ratio: float, film: float) -> Domain:
         Oil that enters over what the flooded contact passes on, below one [-].
     film : float
         Central film to expect [-].
+    sides : (float, float)
+        Side edges [half-widths].
     """
     gap = MENISCUS_GAP * film / max(1.0 - ratio, 1.0 - LARGEST_SUPPLY)
     inlet = LEAST_LINE_INLET
     while float(LINE.dry_gap(np.array(inlet), np.array(0.0))) < gap:
         inlet *= 1.05
     inlet = math.ceil(10.0 * inlet) / 10.0
-    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=LINE_WIDTH)
+    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=sides)
 
 
 def line_field_error(along: float, domain: Domain) -> float:

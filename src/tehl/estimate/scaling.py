@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from tehl.contact.moment import Moment, moment_at
 from tehl.contact.problem import ContactProblem
+from tehl.contact.roller import Roller
 from tehl.contact.shape import LINE, Ellipse, Shape
 
 
@@ -55,9 +56,14 @@ class Groups:
     twist: float = 0.0
     """Of an ellipse at an angle to the entrainment, as of `tehl.contact.shape.Ellipse`."""
 
+    roller: Roller | None = None
+    """The roller under its load, if it is one."""
+
     @property
     def shape(self) -> Shape:
         """The shape of the contact."""
+        if self.roller is not None:
+            return self.roller
         if self.radius_ratio == 0.0:
             return LINE
         return Ellipse(
@@ -128,6 +134,9 @@ def groups(problem: ContactProblem) -> Groups:
     load = problem.load / shape.load_unit(radius, modulus)
     viscous = 12.0 * problem.ambient_viscosity * problem.entrainment_speed
     return Groups(
+        roller=(
+            shape.under(problem.load, problem.radii, modulus) if isinstance(shape, Roller) else None
+        ),
         M=load * (2.0 * speed) ** -shape.speed_power,
         L=material * (2.0 * speed) ** 0.25,
         U=speed,

@@ -24,7 +24,6 @@ import numpy as np
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.options import Domain
-from tehl.contact.shape import LINE
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.line import line_supplied_domain
 from tehl.estimate.scaling import Groups, ScaledProblem
@@ -114,7 +113,7 @@ def entering_oil(scaled: ScaledProblem) -> EnteringOil | None:
         y, oil = places / scaled.scales.half_width_y, layers * unit
     found = EnteringOil(y=y, oil=oil)
     flooded = flooded_oil(scaled)
-    if scaled.groups.shape is LINE:
+    if scaled.groups.shape.as_line:
         return None if float(oil.min()) > LINE_FLOODED * flooded else found
     is_flooded = flooded <= FLOODED_THIN_FILM and float(oil.min()) > FLOODED_SUPPLY * flooded
     return None if is_flooded else found
@@ -154,7 +153,7 @@ def starved_degree(groups: Groups, ratio: float) -> tuple[float, float | None]:
     ratio : float
         r, the oil that enters over that of the flooded contact [-].
     """
-    if groups.shape is LINE:  # nothing flows aside: what enters is what passes
+    if groups.shape.as_line:  # nothing flows aside: what enters is what passes
         return min(ratio, 1.0), None
     law, axes, factors, errors = starved_part(ratio), *table()
     place = np.log(groups.M), groups.L, np.log(max(ratio, 1e-9))
@@ -187,7 +186,7 @@ def supply_error(scaled: ScaledProblem) -> float:
     """
     supply = scaled.problem.supply
     if supply is not None and not is_starved(scaled):
-        return 0.0 if scaled.groups.shape is LINE else FLOODED_ERROR
+        return 0.0 if scaled.groups.shape.as_line else FLOODED_ERROR
     if supply is None or supply.ratio is None:
         return 0.0
     return scaled.flooded_error / (1.0 + supply.ratio**2)
@@ -200,7 +199,7 @@ def supplied_film(scaled: ScaledProblem) -> float:
     if oil is None:
         return flooded
     ratio = max(oil.largest / flooded_oil(scaled), 1e-6)
-    return flooded * (min(ratio, 1.0) if scaled.groups.shape is LINE else starved_part(ratio))
+    return flooded * (min(ratio, 1.0) if scaled.groups.shape.as_line else starved_part(ratio))
 
 
 def starved_domain(scaled: ScaledProblem) -> Domain:
@@ -208,8 +207,9 @@ def starved_domain(scaled: ScaledProblem) -> Domain:
     oil, groups = entering_oil(scaled), scaled.groups
     assert oil is not None
     across = groups.shape.across
-    if groups.shape is LINE:
-        return line_supplied_domain(oil.largest / flooded_oil(scaled), supplied_film(scaled))
+    if groups.shape.as_line:
+        ratio = oil.largest / flooded_oil(scaled)
+        return line_supplied_domain(ratio, supplied_film(scaled), groups.shape.sides)
     # far upstream the pressure returns 3/(3 + 2 D) of the oil that the surfaces drag in
     backflow = 1.5 / groups.radius_ratio + 1.0
     margin = MENISCUS_GAP_MARGIN + MENISCUS_GAP_SLOPE * min(

@@ -7,7 +7,17 @@ from tehl.base.errors import InputError
 
 _NAMES = {
     "cases": (
-        *("ball-on-disc", "moes", "bearing", "gear-ellipse", "line", "rough", "thermal", "dimple"),
+        *(
+            "ball-on-disc",
+            "moes",
+            "bearing",
+            "gear-ellipse",
+            "line",
+            "roller",
+            "rough",
+            "thermal",
+            "dimple",
+        ),
         *("data-sheet", "passing-dent", "starved", "grease-decay", "mixed", "boundary-film"),
         *("gear-mesh", "reversal", "stress", "dynamics", "hypoid", "spin", "rib"),
     ),

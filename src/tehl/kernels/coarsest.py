@@ -14,10 +14,11 @@ import numpy as np
 from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import STEADILY, Stencil, flux_weights, inner_end
+from tehl.kernels.reynolds import CLOSED, STEADILY, Stencil, flux_weights, inner_end
 
 # part of a change of the pressure that asperities take by the film it moves
 NEGLIGIBLE_COARSE_PART = 1e-6
+LARGEST_OWN = 700  # nodes of a roller's coarsest grid from which LAPACK is faster
 HERE, EAST, WEST, NORTH, SOUTH, FAR, ASIDE = range(7)
 SLOTS = 7
 """Neighbours of a node, itself included."""
@@ -109,7 +110,15 @@ def newton_step(state: Coarse, stencil: Stencil, system: CoarseSystem, longest: 
     )
     flat = Coarse._make(field.ravel() for field in state)
     flags = system._replace(residual=system.residual.ravel(), frozen=system.frozen.ravel())
-    return solve_step(flat, stencil, flags, work, (nx, longest))
+    if not (stencil.mirror >= CLOSED and nodes > LARGEST_OWN):
+        return solve_step(flat, stencil, flags, work, (nx, longest))
+    count = fill_step(flat, stencil, flags, work, nx)
+    free = slice(count + 1)
+    try:
+        work.rhs[free] = np.linalg.solve(work.matrix[free, free], work.rhs[free])
+    except np.linalg.LinAlgError:
+        work.rhs[free] = np.nan
+    return take_step(flat, flags, work, count, longest)
 
 
 @helper
@@ -147,7 +156,7 @@ def _solve_dense(a: Array, b: Array, n: int) -> None:
 def _find_free(state: Coarse, system: CoarseSystem, mirror: int, nx: int, free: IntArray) -> int:
     """List the nodes with p > 0 or residual < 0 that are not frozen; return their count."""
     count = 0
-    for j in range(0 if mirror else 1, inner_end(state.p.shape[0] // nx)):
+    for j in range(0 if mirror else 1, inner_end(state.p.shape[0] // nx, mirror)):
         for here in range(j * nx + 1, j * nx + nx - 1):
             wet = state.p[here] != 0.0 or system.residual[here] < 0.0
             if wet and not system.frozen[here]:
@@ -163,7 +172,7 @@ def _find_carrying(state: Coarse, system: CoarseSystem, shape: tuple[int, int], 
     Return their count. ``shape``: mirror, and nodes of a row.
     """
     count, (mirror, nx) = 0, shape
-    for j in range(0 if mirror else 1, inner_end(state.p.shape[0] // nx)):
+    for j in range(0 if mirror else 1, inner_end(state.p.shape[0] // nx, mirror)):
         for here in range(j * nx + 1, j * nx + nx - 1):
             wet = state.p[here] != 0.0 or system.residual[here] < 0.0
             work.dry[here] = not wet or system.frozen[here] > 0
@@ -198,7 +207,7 @@ def _touch(state: Coarse, system: CoarseSystem, work: Work) -> None:
 def _find_neighbours(here: int, nx: int, nodes: int, near: IntArray) -> None:
     """Fill the numbers of a node and its neighbours; one row is its own neighbour."""
     near[HERE], near[EAST], near[WEST] = here, here + 1, here - 1
-    near[NORTH] = here + nx if here + nx < nodes else here
+    near[NORTH] = here + nx if here + nx < nodes else max(here - nx, here % nx)
     near[SOUTH] = here - nx if here >= nx else near[NORTH]
     near[FAR] = max(here - 2, here // nx * nx)
     near[ASIDE] = here
@@ -351,27 +360,30 @@ def _assemble(
             work.matrix[row, column] = work.full[work.free[column]]
         work.rhs[row] = system.residual[here]
     for column in range(count):
-        twice = stencil.mirror and work.free[column] >= nx
+        line = work.free[column] // nx
+        weight = 2.0 if stencil.mirror % CLOSED else 1.0
+        weight *= 0.5 if line == 0 else 1.0
+        weight *= 0.5 if 0 < line == state.p.shape[0] // nx - 1 else 1.0  # a closed end
         part = state.lift[work.free[column]]
-        work.matrix[count, column] = system.area * part * (2.0 if twice else 1.0)
+        work.matrix[count, column] = system.area * part * weight
     work.matrix[count, count] = -system.yielding
     work.rhs[count] = system.missing_load
 
 
-@kernel
-def solve_step(
-    state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, settings: tuple[int, float]
-) -> float:
-    """Take the step of `newton_step` on flat fields; ``settings``: nodes per row, longest step."""
-    nx, longest = settings
-    state, system, work = raw((state, system, work))
+@helper
+def _fill(state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, nx: int) -> int:
+    """Fill the system of a step; return the number of free nodes."""
     count = _find_free(state, system, stencil.mirror, nx, work.free)
-    touches = state.stiffness.shape[0] > 0
-    if touches:
+    if state.stiffness.shape[0] > 0:
         count = _find_carrying(state, system, (stencil.mirror, nx), work)
     _assemble(state, stencil, system, work, (count, nx))
-    _solve_dense(work.matrix, work.rhs, count + 1)
-    most = 0.0
+    return count
+
+
+@helper
+def _take(state: Coarse, system: CoarseSystem, work: Work, count: int, longest: float) -> float:
+    """Take the solved step, no longer than stated; return the change of the rigid approach."""
+    touches, most = state.stiffness.shape[0] > 0, 0.0
     for row in range(count):
         most = max(most, abs(work.rhs[row]))
     scale = min(1.0, longest / max(most, 1e-300))
@@ -384,3 +396,45 @@ def solve_step(
             continue
         state.p[here] = max(state.p[here] + scale * work.rhs[row], 0.0)
     return scale * work.rhs[count]
+
+
+@kernel
+def solve_step(
+    state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, settings: tuple[int, float]
+) -> float:
+    """Take the step of `newton_step` on flat fields; ``settings``: nodes per row, longest step."""
+    nx, longest = settings
+    state, system, work = raw((state, system, work))
+    count = _fill(state, stencil, system, work, nx)
+    _solve_dense(work.matrix, work.rhs, count + 1)
+    return _take(state, system, work, count, longest)
+
+
+@kernel
+def fill_step(state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, nx: int) -> int:
+    """Fill the system of a step; return the number of free nodes.
+
+    Parameters
+    ----------
+    state, stencil, system, work : Coarse, Stencil, CoarseSystem, Work
+        As of `solve_step`.
+    nx : int
+        Nodes per row.
+    """
+    state, system, work = raw((state, system, work))
+    return _fill(state, stencil, system, work, nx)
+
+
+@kernel
+def take_step(state: Coarse, system: CoarseSystem, work: Work, count: int, longest: float) -> float:
+    """Take a solved step; return the change of the rigid approach.
+
+    Parameters
+    ----------
+    state, system, work : Coarse, CoarseSystem, Work
+        As of `solve_step`; the right-hand side is the step.
+    count, longest : int, float
+        Free nodes, and largest change of a pressure [-].
+    """
+    state, system, work = raw((state, system, work))
+    return _take(state, system, work, count, longest)

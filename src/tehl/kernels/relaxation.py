@@ -109,7 +109,7 @@ def mark_dipoles(film: Film, stencil: Stencil, relaxation: LineRelaxation) -> No
     p, eps_x, eps_y, kind = film.p, film.eps_x, film.eps_y, relaxation.kind
     limit = relaxation.xi / max(stencil.cx, stencil.cy)
     clear(kind)
-    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
+    for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
         south, north = row_below(j, ny), row_above(j, ny)
         for i in range(1, relaxation.ends[j]):
             along = max(eps_x[j, i], eps_x[j, i - 1], eps_x[j, i + 1])
@@ -134,7 +134,7 @@ def stiffen(film: Film, stencil: Stencil, flow: FlowTable, out: Array) -> None:
     table, step = flow.mobility, flow.step
     last = table.shape[0] - 2
     clear(out)
-    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
+    for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
         south, north = row_below(j, ny), row_above(j, ny)
         for i in range(1, nx - 1):
             p = film.p[j, i]
@@ -566,8 +566,8 @@ def relax_lines(film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxa
     mark_dipoles(film, stencil, relaxation)
     clear(relaxation.delta)
     for colour in range(2):
-        for j in range(first + colour, inner_end(ny), 2 * LANES):
-            count = min(LANES, (inner_end(ny) + 1 - j) // 2)
+        for j in range(first + colour, inner_end(ny, stencil.mirror), 2 * LANES):
+            count = min(LANES, (inner_end(ny, stencil.mirror) + 1 - j) // 2)
             relax_batch(film, stencil, rhs, relaxation, (j, count))
     add_dipoles(film, relaxation, stencil.mirror)
 
@@ -577,7 +577,7 @@ def add_dipoles(film: Film, relaxation: LineRelaxation, mirror: int) -> None:
     """Add the stored dipoles to ``p`` and clip at zero unless asperities carry."""
     p, delta, ends, (ny, nx) = film.p, relaxation.delta, relaxation.ends, film.p.shape
     touches = film.stiffness.shape[0] > 0
-    for j in range(0 if mirror else 1, inner_end(ny)):
+    for j in range(0 if mirror else 1, inner_end(ny, mirror)):
         south, north = row_below(j, ny), row_above(j, ny)
         end = max(ends[j], ends[south], ends[north])
         for i in range(1, min(end + 1, nx - 1)):
@@ -608,7 +608,7 @@ def relax_points(film: Film, stencil: Stencil, rhs: Array, self_film: Array, ome
     film, rhs, self_film = raw((film, rhs, self_film))
     ny, nx = film.p.shape
     p, eps_x, eps_y, rho, h = film.p, film.eps_x, film.eps_y, film.rho, film.h
-    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
+    for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
         south, upper = row_below(j, ny), row_above(j, ny)
         for i in range(1, nx - 1):
             east = 0.5 * stencil.cx * (eps_x[j, i] + eps_x[j, i + 1])

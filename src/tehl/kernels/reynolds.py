@@ -21,6 +21,8 @@ from tehl.kernels.compiled import helper, kernel, summing_helper
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
 
+CLOSED = 2
+"""Added to ``mirror`` where no oil flows through the ends: their rows are inner ones."""
 STEADILY, IN_TIME = 1, 2
 MARK_SECOND_ORDER, MARK_THIRD_ORDER = 1, 2
 """Marks of the nodes that pass on oil with second and with third order where it is conserved."""
@@ -31,8 +33,9 @@ class Stencil(NamedTuple):
 
     ``cx = 1/dx^2``, ``cy = 1/(kappa dy)^2``; ``w0, w1, w2`` weigh rho h of a node and of its
     upstream neighbours: the wedge, in a time step wedge and squeeze at the new time; ``mirror`` is
-    1 if row 0 is a symmetry line; ``conserves`` is `STEADILY` or `IN_TIME` if oil is conserved in
-    cavities too. In a time step what a cell holds does not depend on the present of others.
+    1 if row 0 is a symmetry line, and 2 more where the ends are closed; ``conserves`` is `STEADILY`
+    or `IN_TIME` if oil is conserved in cavities too. In a time step what a cell holds does not
+    depend on the present of others.
     ``third`` is zero, or 1/3 of ``1/dx``: the weight of the third difference that makes a wedge of
     second order one of third order, with geometric means of the conductance. From column ``fore``
     on, behind the centre, half of it is added: all of it overshoots at the pressure spike.
@@ -61,14 +64,14 @@ def row_below(j: int, ny: int) -> int:
 
 @helper
 def row_above(j: int, ny: int) -> int:
-    """Return the row north of row ``j``."""
-    return min(j + 1, ny - 1)
+    """Return the row north of row ``j``: beyond the last one is the mirror image of others."""
+    return j + 1 if j + 1 < ny else max(ny - 2, 0)
 
 
 @helper
-def inner_end(ny: int) -> int:
+def inner_end(ny: int, mirror: int) -> int:
     """Return the row before which the inner rows end: the edge, if there is more than one."""
-    return max(ny - 1, 1)
+    return ny if mirror >= CLOSED else max(ny - 1, 1)
 
 
 @helper
@@ -313,7 +316,7 @@ def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array, ends:
     """
     film, rhs, scratch, ends = raw((film, rhs, scratch, ends))
     partial, p, nx = film.partial, film.p, film.p.shape[1]
-    for j in range(0 if stencil.mirror else 1, inner_end(p.shape[0])):
+    for j in range(0 if stencil.mirror else 1, inner_end(p.shape[0], stencil.mirror)):
         if ends[j] == 0:
             continue
         end, to = ends[j], nx if ends[j] == nx - 1 else ends[j]
@@ -337,7 +340,7 @@ def keep_to_fronts(film: Film, mirror: int, width: int, frozen: FlagArray, ends:
         ends[j] = 0
         for i in range(nx):
             frozen[j, i] = 1
-    for j in range(0 if mirror else 1, inner_end(ny)):
+    for j in range(0 if mirror else 1, inner_end(ny, mirror)):
         for i in range(1, nx - 1):
             if partial[j, i] > 0 or partial[j, i - 1] == 0:
                 continue
@@ -388,7 +391,7 @@ def oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -> None:
     for j in range(ny):
         for i in range(nx):
             held[j, i] = film.rho[j, i] * film.h[j, i]
-    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
+    for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
         before, flux = inflow(film, stencil, j)
         held[j, 0] = before
         passed[j, 0] = flux - _face_flow(film, stencil, j, 0) / rate
@@ -437,7 +440,7 @@ def operator(film: Film, stencil: Stencil, out: Array) -> None:
     """Write L(p) to ``out`` (ny, nx), zero on the edges."""
     film, out = raw((film, out))
     clear(out)
-    for j in range(0 if stencil.mirror else 1, inner_end(film.p.shape[0])):
+    for j in range(0 if stencil.mirror else 1, inner_end(film.p.shape[0], stencil.mirror)):
         line_operator(film, stencil, j, out, (j, film.p.shape[1] - 1))
 
 
@@ -465,7 +468,7 @@ def diagonal(film: Film, stencil: Stencil, self_film: float, out: Array) -> None
     film, out = raw((film, out))
     clear(out)
     ny, nx = film.p.shape
-    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
+    for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
         for i in range(1, nx - 1):
             out[j, i] = _node_diagonal(film, stencil, self_film, j, i)
 
@@ -507,7 +510,7 @@ def residual(film: Film, stencil: Stencil, rhs: Array, self_film: float, out: Ar
     total, count = 0.0, 0
     clear(out)
     ny, nx = film.p.shape
-    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
+    for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
         line_operator(film, stencil, j, out, (j, film.p.shape[1] - 1))
         for i in range(1, nx - 1):
             out[j, i] = rhs[j, i] - out[j, i]
@@ -531,7 +534,7 @@ def tangent_source(film: Film, stencil: Stencil, out: Array) -> None:
     p, eps, eps_x, eps_y = film.p, film.eps, film.eps_x, film.eps_y
     ny, nx = p.shape
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
-    for j in range(0 if stencil.mirror else 1, inner_end(ny)):
+    for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
         south, north = row_below(j, ny), row_above(j, ny)
         for i in range(1, nx - 1):
             east = both_x(stencil, eps_x[j, i], eps_x[j, i + 1])

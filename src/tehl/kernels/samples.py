@@ -80,11 +80,14 @@ _NODES = relaxation.workspace(0)[1]
 _SCRATCH = records.scratch(1, records.BLOCK, 1)
 ISOTHERMAL = (
     _sample(relaxation.relax_lines, 2.4, point=1, dipole=1, nodes=_NODES, cells=3),
-    _sample(
-        coarsest.solve_step,
-        1.0,
-        **_axes(1, *coarsest.Coarse._fields, *coarsest.Work._fields, "residual", "frozen")
-        | _axes(2, "matrix"),
+    *(
+        _sample(
+            step,
+            1.0,
+            **_axes(1, *coarsest.Coarse._fields, *coarsest.Work._fields, "residual", "frozen")
+            | _axes(2, "matrix"),
+        )
+        for step in (coarsest.solve_step, coarsest.fill_step, coarsest.take_step)
     ),
     _sample(summation.spread_columns, 0.9),
     _sample(summation.spread_rows, 0.7),

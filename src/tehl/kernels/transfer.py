@@ -2,8 +2,8 @@
 
 Venner and Lubrecht 2000, chapters 3 and 6; docs/theory/numerics.md on cavitation.
 
-Fine fields are (ny, nx), coarse ones ((ny+1)/2, (nx+1)/2); with ``mirror`` row 0 is a symmetry
-line and row -1 equals row 1.
+Fine fields are (ny, nx), coarse ones ((ny+1)/2, (nx+1)/2) or as many along one axis; with
+``mirror`` row 0 is a symmetry line and row -1 equals row 1.
 """
 
 from tehl.base.typing import Array, FlagArray
@@ -13,15 +13,30 @@ from tehl.kernels.reynolds import clear, inner_end, row_above, row_below
 
 
 @helper
-def _weigh(fine: Array, j: int, i: int) -> float:
+def steps(fine: Array, coarse: Array) -> tuple[int, int]:
+    """Return the rows and columns of ``fine`` per row and column of ``coarse``, one or two."""
+    rows = 1 if fine.shape[0] == coarse.shape[0] else 2
+    return rows, 1 if fine.shape[1] == coarse.shape[1] else 2
+
+
+@helper
+def beside(j: int, i: int, step: tuple[int, int], ny: int) -> tuple[int, int, int, int]:
+    """Return the rows south and north and the columns west and east of a node.
+
+    They are its own where none are left out.
+    """
+    south, north = (j, j) if step[0] == 1 else (row_below(j, ny), row_above(j, ny))
+    return south, north, i + 1 - step[1], i - 1 + step[1]
+
+
+@helper
+def _weigh(fine: Array, j: int, i: int, step: tuple[int, int]) -> float:
     """Full weighting of ``fine`` at fine node (j, i)."""
-    ny = fine.shape[0]
-    south, north = row_below(j, ny), row_above(j, ny)
+    south, north, west, east = beside(j, i, step, fine.shape[0])
     return (
         0.25 * fine[j, i]
-        + 0.125 * (fine[j, i - 1] + fine[j, i + 1] + fine[south, i] + fine[north, i])
-        + 0.0625
-        * (fine[south, i - 1] + fine[south, i + 1] + fine[north, i - 1] + fine[north, i + 1])
+        + 0.125 * (fine[j, west] + fine[j, east] + fine[south, i] + fine[north, i])
+        + 0.0625 * (fine[south, west] + fine[south, east] + fine[north, west] + fine[north, east])
     )
 
 
@@ -30,10 +45,11 @@ def restrict_residual(fine: Array, mirror: int, coarse: Array) -> None:
     """Full weighting of the residual, zero on the edges."""
     fine, coarse = raw((fine, coarse))
     ny, nx = coarse.shape
+    step = steps(fine, coarse)
     clear(coarse)
-    for j in range(0 if mirror else 1, inner_end(ny)):
+    for j in range(0 if mirror else 1, inner_end(ny, mirror)):
         for i in range(1, nx - 1):
-            coarse[j, i] = _weigh(fine, 2 * j, 2 * i)
+            coarse[j, i] = _weigh(fine, step[0] * j, step[1] * i, step)
 
 
 @kernel
@@ -53,11 +69,11 @@ def keep_residual(fine: Array, coarse: Array, mirror: int) -> None:
         1 if row 0 is the symmetry line.
     """
     fine, coarse = raw((fine, coarse))
-    ny, nx = fine.shape
-    for j in range(0 if mirror else 1, inner_end(ny)):
-        low_j, high_j = j // 2, j // 2 + j % 2
+    (ny, nx), step = fine.shape, steps(fine, coarse)
+    for j in range(0 if mirror else 1, inner_end(ny, mirror)):
+        low_j, high_j = j // step[0], j // step[0] + j % step[0]
         for i in range(1, nx - 1):
-            low_i, high_i = i // 2, i // 2 + i % 2
+            low_i, high_i = i // step[1], i // step[1] + i % step[1]
             wet = 0.0
             for row in (low_j, high_j):
                 for column in (low_i, high_i):
@@ -70,19 +86,19 @@ def keep_residual(fine: Array, coarse: Array, mirror: int) -> None:
 def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
     """Full weighting where all nine fine values are positive, injection elsewhere and on edges."""
     fine, coarse = raw((fine, coarse))
-    ny, nx = coarse.shape
+    (ny, nx), step = coarse.shape, steps(fine, coarse)
     for j in range(ny):
         for i in range(nx):
-            fj, fi = 2 * j, 2 * i
-            if j == inner_end(ny) or i == 0 or i == nx - 1 or (j == 0 and mirror == 0):
+            fj, fi = step[0] * j, step[1] * i
+            if j == inner_end(ny, mirror) or i == 0 or i == nx - 1 or (j == 0 and mirror == 0):
                 coarse[j, i] = fine[fj, fi]
                 continue
-            south, north = row_below(fj, fine.shape[0]), row_above(fj, fine.shape[0])
+            south, north, west, east = beside(fj, fi, step, fine.shape[0])
             smallest = abs(fine[fj, fi])
             for row in (south, fj, north):
-                for column in range(fi - 1, fi + 2):
+                for column in (west, fi, east):
                     smallest = min(smallest, abs(fine[row, column]))
-            coarse[j, i] = _weigh(fine, fj, fi) if smallest > 0.0 else fine[fj, fi]
+            coarse[j, i] = _weigh(fine, fj, fi, step) if smallest > 0.0 else fine[fj, fi]
 
 
 @kernel
@@ -108,15 +124,15 @@ def correct(
     """
     part, limit, least = bounds
     p, coarse, before = raw((p, coarse, before))
-    ny, nx = p.shape
-    for j in range(0 if mirror else 1, inner_end(ny)):
-        low_j = j // 2
-        high_j = low_j + (j % 2)
+    (ny, nx), step = p.shape, steps(p, coarse)
+    for j in range(0 if mirror else 1, inner_end(ny, mirror)):
+        low_j = j // step[0]
+        high_j = low_j + (j % step[0])
         for i in range(1, nx - 1):
             if p[j, i] == 0.0:
                 continue
-            low_i = i // 2
-            high_i = low_i + (i % 2)
+            low_i = i // step[1]
+            high_i = low_i + (i % step[1])
             total = 0.0
             wet = True
             for row in (low_j, high_j):
@@ -141,11 +157,11 @@ def correct_fronts(
     bounds of `correct`.
     """
     p, coarse, before = raw((p, coarse, before))
-    ny, nx = p.shape
-    for j in range(0 if mirror else 1, inner_end(ny)):
-        low_j, high_j = j // 2, j // 2 + j % 2
+    (ny, nx), step = p.shape, steps(p, coarse)
+    for j in range(0 if mirror else 1, inner_end(ny, mirror)):
+        low_j, high_j = j // step[0], j // step[0] + j % step[0]
         for i in range(1, nx - 1):
-            low_i, high_i = i // 2, i // 2 + i % 2
+            low_i, high_i = i // step[1], i // step[1] + i % step[1]
             total, known, wet = 0.0, 0.0, 0
             for row in (low_j, high_j):
                 for column in (low_i, high_i):
@@ -178,14 +194,15 @@ def freeze(
         Largest pressure of a marked node [-].
     """
     fine, fine_frozen, coarse, out = raw((fine, fine_frozen, coarse, out))
-    ny, nx = coarse.shape
+    (ny, nx), step = coarse.shape, steps(fine, coarse)
     clear(out)
-    for j in range(0 if mirror else 1, inner_end(ny)):
+    for j in range(0 if mirror else 1, inner_end(ny, mirror)):
         for i in range(1, nx - 1):
             if coarse[j, i] > limit:
                 continue
-            fj, fi = 2 * j, 2 * i
-            for row in (row_below(fj, fine.shape[0]), fj, row_above(fj, fine.shape[0])):
-                for column in range(fi - 1, fi + 2):
+            fj, fi = step[0] * j, step[1] * i
+            south, north, west, east = beside(fj, fi, step, fine.shape[0])
+            for row in (south, fj, north):
+                for column in (west, fi, east):
                     if fine[row, column] == 0.0 or fine_frozen[row, column]:
                         out[j, i] = 1

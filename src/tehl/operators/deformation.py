@@ -147,6 +147,31 @@ class LineDeformation:
         out[:] = self.convolved[:, : pressure.shape[1]]
 
 
+class BetweenEnds:
+    """Deflection by a roller, whose first and last lines have cells of half the width.
+
+    Half the pressure on a whole cell makes the same, but for the place of its middle.
+    """
+
+    def __init__(self, inner: Deformation, grid: Grid) -> None:
+        self.inner, self.lines = inner, [-1] if grid.mirror else [0, -1]
+        self.halved = np.zeros(grid.shape)
+
+    def deflect(self, pressure: Array, out: Array) -> None:
+        """Write the deflection under ``pressure`` to ``out``.
+
+        Parameters
+        ----------
+        pressure : Array
+            P at the nodes [-], (ny, nx).
+        out : Array
+            Overwritten by the deflection [-], (ny, nx).
+        """
+        self.halved[:] = pressure
+        self.halved[self.lines] *= 0.5
+        self.inner.deflect(self.halved, out)
+
+
 def choose(name: str, grid: Grid, groups: Groups, *, exact: bool = False) -> Deformation:
     """Return the deflection operator ``name``; ``"auto"`` is the cheapest at equal accuracy.
 
@@ -162,6 +187,11 @@ def choose(name: str, grid: Grid, groups: Groups, *, exact: bool = False) -> Def
         Whether ``"auto"`` takes a sum that is exact to rounding: the multilevel one errs by 4e-4 of
         a pressure peak of a few mesh widths.
     """
+    found = _choose(name, grid, groups, exact=exact)
+    return BetweenEnds(found, grid) if grid.is_closed else found
+
+
+def _choose(name: str, grid: Grid, groups: Groups, *, exact: bool) -> Deformation:
     if groups.shape is LINE and name != "direct":
         name = "lines"  # of one row: the sum by FFT
     if name == "auto":

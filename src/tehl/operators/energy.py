@@ -184,14 +184,15 @@ class FilmState:
     def refine_from(self, coarse: "FilmState") -> None:
         """Take temperature and stress of a coarser grid by linear interpolation."""
         self.is_first_grid = False
-        self.temperature[:] = midpoints(coarse.temperature)
+        self.temperature[:] = midpoints(coarse.temperature, self.temperature.shape)
         for name in ("tau_x", "tau_y"):
-            self.view(name)[:] = midpoints(coarse.view(name))
+            mine = self.view(name)
+            mine[:] = midpoints(coarse.view(name), mine.shape)
         for mine, theirs in zip(self.fluxes, coarse.fluxes, strict=True):
-            mine[:] = midpoints(theirs)
+            mine[:] = midpoints(theirs, mine.shape)
         for wall, coarser in zip(self.walls, coarse.walls, strict=True):
-            wall[:] = midpoints(coarser)
-        first, second = (midpoints(rise) for rise in coarse.solids.rises)
+            wall[:] = midpoints(coarser, wall.shape)
+        first, second = (midpoints(rise, self.walls[0].shape) for rise in coarse.solids.rises)
         self.solids.rises = first, second  # part of these walls
 
     def slide(self, part: float) -> None:

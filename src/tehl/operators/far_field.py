@@ -21,7 +21,6 @@ import numpy as np
 from scipy.linalg import solve_banded
 
 from tehl.base.typing import Array, BoolArray
-from tehl.contact.shape import LINE
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 from tehl.operators.upstream import EdgeSlopes, UpstreamField
@@ -167,7 +166,7 @@ def far_field(grid: Grid, groups: Groups, speed: float = 1.0) -> "Edges":
         turned = replace(grid, domain=domain.model_copy(update={"x": x, "y": y}))
         return Turned(far_field(turned, groups, -speed), 1 if grid.mirror else -1)
     groups = replace(groups, lambda_bar=speed * groups.lambda_bar)
-    return UpstreamField(grid, groups) if groups.shape is LINE else FarField(grid, groups)
+    return UpstreamField(grid, groups) if groups.shape.as_line else FarField(grid, groups)
 
 
 class Turned:

@@ -121,6 +121,21 @@ def influence_of(grid: Grid, groups: Groups) -> Influence:
     return Influence(grid.dx, groups.ellipticity * grid.dy, groups.deflection_factor)
 
 
+def matrix_of(grid: Grid, influence: Influence) -> Array:
+    """Return the film at each node of a grid per unit pressure of each node, (n, n).
+
+    Parameters
+    ----------
+    grid, influence : Grid, Influence
+        The nodes, and the influence at their offsets.
+    """
+    found = dense_matrix(grid.shape, grid.mirror, influence)
+    if grid.is_closed:  # as in `tehl.operators.deformation.BetweenEnds`
+        found[:, -grid.nx :] *= 0.5
+        found[:, : grid.nx] *= 1.0 if grid.mirror else 0.5
+    return found
+
+
 def dense_matrix(
     shape: tuple[int, int], mirror: bool, influence: Influence, stride: tuple[int, int] = (1, 1)
 ) -> Array:

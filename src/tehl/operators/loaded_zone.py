@@ -49,6 +49,8 @@ def zone_part(x: Array, y: Array, radius: float = RADIUS, skew: float = 0.0) -> 
     edges_x, edges_y = _edges(x), _edges(y)
     middles = (np.arange(STRIPS) + 0.5) / STRIPS
     across = edges_y[:-1, None] + np.diff(edges_y)[:, None] * middles
+    if ends_at_roller(y):
+        across *= 0.0
     chords = np.sqrt(np.maximum(radius**2 - across**2, 0.0))
     chords *= math.sqrt(1.0 - skew**2)
     ends = zip((skew * across - chords).T, (skew * across + chords).T, strict=True)
@@ -85,8 +87,17 @@ def is_inside(x: Array, y: Array, skew: float = 0.0) -> BoolArray:
     skew : float
         As of `zone_part`.
     """
+    y = 0.0 * y if ends_at_roller(y) else y
     reach = np.add.outer(y**2, x**2) - 2.0 * skew * np.multiply.outer(y, x)
     return np.asarray(reach <= RADIUS**2 * (1.0 - skew**2))
+
+
+def ends_at_roller(y: Array) -> bool:
+    """Whether nodes are those of a line or a roller, which lie in the zone along all of it.
+
+    Those of an ellipse reach beyond it.
+    """
+    return float(np.abs(y).max()) <= 1.0
 
 
 def _edges(axis: Array) -> Array:

@@ -13,7 +13,7 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.spin import spin_number
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import IN_TIME, STEADILY, Stencil
+from tehl.kernels.reynolds import CLOSED, IN_TIME, STEADILY, Stencil
 from tehl.operators.influence import Influence
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
@@ -53,7 +53,7 @@ def steady_stencil(
         w0=w0,
         w1=w1,
         w2=w2,
-        mirror=int(grid.mirror),
+        mirror=int(grid.mirror) + (CLOSED if grid.is_closed else 0),
         conserves=STEADILY if conserves else 0,
         third=speed / (3.0 * grid.dx) if wedge_order > 2 else 0.0,
         fore=int(np.searchsorted(grid.x, 0.0)),

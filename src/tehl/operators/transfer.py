@@ -1,9 +1,13 @@
 """Interpolation to the next finer grid: cubic for pressures, linear for lubricant factors."""
 
+from typing import TypeVar
+
 import numpy as np
 
-from tehl.base.typing import Array
+from tehl.base.typing import Array, FlagArray
 from tehl.estimate.grid import Grid
+
+Field = TypeVar("Field", Array, FlagArray)
 
 
 def refine(pressure: Array, fine: Grid) -> Array:
@@ -15,23 +19,32 @@ def refine(pressure: Array, fine: Grid) -> Array:
     Parameters
     ----------
     pressure : Array
-        P on the grid with twice the mesh widths [-].
+        P on the grid with twice the mesh widths, or twice that along one axis [-].
     fine : Grid
         Decides whether row 0 is the symmetry line.
     """
-    rows = _cubic_along_x(pressure)
-    if fine.ny == 1:
-        rows[:, [0, -1]] = 0.0
-        return np.maximum(rows, 0.0)
-    if fine.mirror:  # two mirrored rows make the symmetry line an inner one
-        rows = np.concatenate([rows[2:0:-1], rows])
-    field = _cubic_along_x(rows.T).T
-    if fine.mirror:
-        field = field[4:]
-    field = np.maximum(field, 0.0)
-    field[-1] = field[:, 0] = field[:, -1] = 0.0
-    if not fine.mirror:
-        field[0] = 0.0
+    field = np.maximum(refine_signed(pressure, fine), 0.0)
+    field[:, [0, -1]] = 0.0
+    field[list(fine.edge_rows)] = 0.0
+    return field
+
+
+def refine_signed(pressure: Array, fine: Grid) -> Array:
+    """Return a difference of pressures interpolated to a finer grid, as of `refine`.
+
+    Parameters
+    ----------
+    pressure, fine : Array, Grid
+        As of `refine`.
+    """
+    field = pressure if fine.nx == pressure.shape[1] else _cubic_along_x(pressure)
+    if fine.shape[0] != pressure.shape[0]:
+        # two mirrored rows make a symmetry line or a closed end an inner one
+        first, last = fine.mirror or fine.is_closed, fine.is_closed
+        field = np.concatenate(([field[2:0:-1]] if first else []) + [field])
+        field = np.concatenate([field] + ([field[-2:-4:-1]] if last else []))
+        field = _cubic_along_x(field.T).T
+        field = field[4 * first : len(field) - 4 * last]
     return field
 
 
@@ -46,11 +59,35 @@ def _cubic_along_x(values: Array) -> Array:
     return fine
 
 
-def midpoints(values: Array) -> Array:
-    """Insert midpoints along the first and the last axis, linearly; a single row stays one."""
-    shape = (2 * values.shape[0] - 1, *values.shape[1:-1], 2 * values.shape[-1] - 1)
-    fine = np.empty(shape)
-    fine[::2, ..., ::2] = values
-    fine[1::2, ..., ::2] = 0.5 * (values[1:] + values[:-1])
-    fine[..., 1::2] = 0.5 * (fine[..., :-1:2] + fine[..., 2::2])
+def injected(fine: Field, coarse: Array | FlagArray) -> Field:
+    """Return the values at the nodes of a coarser grid, which may have as many along one axis.
+
+    Parameters
+    ----------
+    fine, coarse : (ny, nx) array
+        Values, and any field of the coarser grid.
+    """
+    rows, columns = (1 + (n > m) for n, m in zip(fine.shape, coarse.shape, strict=True))
+    return fine[::rows, ::columns]
+
+
+def midpoints(values: Array, shape: tuple[int, ...] | None = None) -> Array:
+    """Insert midpoints along the first and the last axis, linearly; a single row stays one.
+
+    Parameters
+    ----------
+    values : Array
+        On the coarser grid.
+    shape : tuple of int or None
+        That of the field on the finer grid, which may have the same lines; None inserts midpoints
+        along both axes.
+    """
+    first, *inner, last = values.shape
+    shape = (2 * first - 1, *inner, 2 * last - 1) if shape is None else shape
+    fine, rows, columns = np.empty(shape), 1 + (shape[0] > first), 1 + (shape[-1] > last)
+    fine[::rows, ..., ::columns] = values
+    if rows == 2:
+        fine[1::2, ..., ::columns] = 0.5 * (values[1:] + values[:-1])
+    if columns == 2:
+        fine[..., 1::2] = 0.5 * (fine[..., :-1:2] + fine[..., 2::2])
     return fine

@@ -28,11 +28,11 @@ GAUSS_NODES = 16
 
 
 class Beyond(NamedTuple):
-    """Pressure P at the inlet edge; beyond it the integrals of P and of H dP [-]."""
+    """Pressure P at the inlet edge; beyond it the integrals of P and of H dP [-], of each line."""
 
-    pressure: float
-    load: float
-    rolling: float
+    pressure: Array
+    load: Array
+    rolling: Array
 
 
 class EdgeSlopes(NamedTuple):
@@ -49,40 +49,40 @@ class EdgeSlopes(NamedTuple):
     load_by_flux: float = 0.0
 
 
-NOTHING = Beyond(0.0, 0.0, 0.0)
-"""Upstream of a starved film there is no pressure."""
+def nothing(grid: Grid) -> Beyond:
+    """Return what is upstream of a starved film: no pressure."""
+    return Beyond(*np.zeros((3, grid.shape[0])))
 
 
-def beyond(edge: float, film: float, flux: float, groups: Groups) -> Beyond:
+def beyond(edge: float, film: Array, flux: Array, groups: Groups) -> Beyond:
     """Return what the oil upstream of an edge does.
 
     Parameters
     ----------
-    edge, film : float
-        X_a < 0, and H there [-].
-    flux : float
-        rho H where the pressure is largest [-].
+    edge : float
+        X_a < 0 [-].
+    film, flux : (n,) array
+        Of each line H there, and rho H where the pressure is largest [-].
     groups : Groups
         lambda and alpha p_h of the oil that enters.
     """
     t, weight = _gauss()
     x = edge / t
-    h = gap_beyond(edge, film, t)
-    slope = groups.lambda_bar * weight * (h - flux) / h**3  # P' |dX|
+    h = gap_beyond(edge, film[:, None], t)
+    slope = groups.lambda_bar * weight * (h - flux[:, None]) / h**3  # P' |dX|
     slope *= -edge / t**2
-    thicker = min(groups.alpha_bar * float(slope.sum()), MOST_THICKENING)
-    slope /= 1.0 - thicker * t**3
-    pressure = float(slope.sum())
-    load = float((slope * (edge - x)).sum())
-    return Beyond(pressure, load, float((slope * h).sum()))
+    thicker = np.minimum(groups.alpha_bar * slope.sum(axis=1), MOST_THICKENING)
+    slope /= 1.0 - thicker[:, None] * t**3
+    moments = (slope * (edge - x)).sum(axis=1)
+    return Beyond(slope.sum(axis=1), moments, (slope * h).sum(axis=1))
 
 
-def gap_beyond(edge: float, film: float, t: Array) -> Array:
+def gap_beyond(edge: float, film: Array, t: Array) -> Array:
     """Return H upstream of an edge at X = edge / t [-].
 
     Parameters
     ----------
-    edge, film : float
+    edge, film : float, array
         X_a < 0, and H there [-].
     t : array
         Between 0 and 1.
@@ -92,28 +92,49 @@ def gap_beyond(edge: float, film: float, t: Array) -> Array:
     return np.asarray(film + 0.5 * (x**2 - edge**2) + bent)
 
 
-def rolling(x: Array, pressure: Array, film: Array, upstream: Beyond) -> tuple[float, float]:
-    r"""Return the rolling integral of a line contact, and the moment of the pressure over it [-].
+def rolling(
+    x: Array, pressure: Array, film: Array, upstream: Beyond, widths: Array
+) -> tuple[float, float]:
+    r"""Return the rolling integral of a line or roller, and the moment of the pressure over it [-].
 
     The integral is the friction of the flow by the pressure on both surfaces, and the moment of the
     pressure about the middle,
 
-    .. math:: I = \int H \frac{dP}{dX} dX = -\int X P\, dX,
+    .. math:: I = \int\!\!\int H \frac{dP}{dX} dX dY = -\int\!\!\int X P\, dX dY,
 
     which are equal as the deflection by P makes no moment. Sums by the trapezoidal rule; the ratio
     is that on the grid.
 
     Parameters
     ----------
-    x, pressure, film : (n,) array
+    x, pressure, film : (nx,), (ny, nx), (ny, nx) array
         X, P and H [-].
     upstream : Beyond
-        What the oil upstream of the first node adds.
+        What the oil upstream of the first node of each line adds.
+    widths : (ny,) array
+        What each line stands for [-].
     """
-    flow = float(np.sum(0.5 * (film[1:] + film[:-1]) * np.diff(pressure)))
-    moment = -float(np.trapezoid(x * pressure, x))
-    ratio = moment / (flow + float(film[0] * pressure[0]))
-    return flow + upstream.rolling, ratio
+    flow = np.sum(0.5 * (film[:, 1:] + film[:, :-1]) * np.diff(pressure), axis=1)
+    moment = -np.trapezoid(x * pressure, x)
+    on_grid = float((flow + film[:, 0] * pressure[:, 0]) @ widths)
+    found = float(flow @ widths) + float(upstream.rolling @ widths)
+    return found, float(moment @ widths) / on_grid
+
+
+def upstream_of(grid: Grid, film: Array, oil: Array, groups: Groups) -> Beyond:
+    """Return what the oil upstream of each line of a grid does.
+
+    Parameters
+    ----------
+    grid, film : Grid, (ny, nx) array
+        Its inlet edge, and H there [-].
+    oil : (ny,) array
+        rho H of each line where its pressure is largest [-].
+    groups : Groups
+        lambda and alpha p_h of the oil that enters.
+    """
+    inlet = film[:, 0]
+    return beyond(grid.domain.x[0], inlet, np.minimum(oil, inlet), groups)
 
 
 @cache
@@ -124,7 +145,7 @@ def _gauss() -> tuple[Array, Array]:
 
 
 class UpstreamField:
-    """Pressure on the inlet edge of a line contact, and the load beyond it.
+    """Pressure on the inlet edge of a line contact, and the load beyond it, line by line.
 
     Parameters
     ----------
@@ -137,6 +158,7 @@ class UpstreamField:
     def __init__(self, grid: Grid, groups: Groups) -> None:
         self.edge, self.groups = grid.domain.x[0], groups
         self.middle = int(np.argmin(np.abs(grid.x)))
+        self.widths = grid.widths
 
     def set_edges(self, pressure: Array, film: Array) -> None:
         """Set the pressure on the inlet edge for a film; it is zero on the outlet edge.
@@ -144,11 +166,12 @@ class UpstreamField:
         Parameters
         ----------
         pressure : Array
-            P [-], (1, nx); its first node is overwritten.
+            P [-], (ny, nx); its first column is overwritten.
         film : Array
-            H [-], (1, nx), positive on the edge.
+            H [-], (ny, nx), positive on the edge.
         """
-        pressure[0, 0], pressure[0, -1] = self._beyond(film).pressure, 0.0
+        pressure[:, 0] = self._beyond(film).pressure
+        pressure[:, -1] = 0.0
 
     def load(self, film: Array, gap: Array) -> float:
         """Return the integral of P upstream of the grid [-].
@@ -159,7 +182,7 @@ class UpstreamField:
             H; the gap follows from its value on the edge.
         """
         del gap
-        return self._beyond(film).load
+        return float(self._beyond(film).load @ self.widths)
 
     def slopes(self, film: Array, gap: Array) -> EdgeSlopes:
         r"""Return the changes by those of film and flux at the edge, and by the rate of the film.
@@ -174,22 +197,21 @@ class UpstreamField:
         del gap
         inlet = float(film[0, 0])
         flux, step = min(float(film[0, self.middle]), inlet), 1e-4 * inlet
-        higher, lower = (
-            beyond(self.edge, one, flux, self.groups) for one in (inlet + step, inlet - step)
-        )
+        films = np.array([inlet + step, inlet - step])
+        changed = beyond(self.edge, films, np.array([flux, flux]), self.groups)
         t, weight = _gauss()
-        x, h = self.edge / t, gap_beyond(self.edge, inlet, t)
+        x, h = self.edge / t, gap_beyond(self.edge, np.array(inlet), t)
         per_flux = -self.groups.lambda_bar * weight / h**3 * -self.edge / t**2
         by_flux, load_by_flux, load_by_rate = (
             float((per_flux * (self.edge - x) ** power).sum()) for power in range(3)
         )
         by_film, by_rate = np.zeros_like(film), np.zeros_like(film)
-        by_film[0, 0] = (higher.pressure - lower.pressure) / (2.0 * step)
+        by_film[0, 0] = (changed.pressure[0] - changed.pressure[1]) / (2.0 * step)
         by_rate[0, 0] = load_by_flux
-        load_by_film = (higher.load - lower.load) / (2.0 * step)
+        load_by_film = float(changed.load[0] - changed.load[1]) / (2.0 * step)
         return EdgeSlopes(by_film, by_rate, load_by_film, load_by_rate, by_flux, load_by_flux)
 
     def _beyond(self, film: Array) -> Beyond:
-        inlet = max(float(film[0, 0]), 0.5 * self.edge**2 * 1e-3)
-        flux = min(max(float(film[0, self.middle]), 0.0), inlet)
+        inlet = np.maximum(film[:, 0], 0.5 * self.edge**2 * 1e-3)
+        flux = np.minimum(np.maximum(film[:, self.middle], 0.0), inlet)
         return beyond(self.edge, inlet, flux, self.groups)

@@ -11,7 +11,7 @@ from matplotlib.colorbar import Colorbar
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Ellipse
+from matplotlib.patches import Ellipse, Patch, Rectangle
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
@@ -199,7 +199,10 @@ def window(result: Solution) -> tuple[Span, Span]:
     Slender contacts have less room at their tips and more beside them, so that the map does not
     become a thin strip.
     """
-    ratio = 1.0 if result.problem.contact.is_line else result.groups.ellipticity
+    if result.problem.contact.has_lines:  # a roller is shown from end to end
+        side = float(np.abs(result.scaled.y).max())
+        return (max(WINDOW[0][0], float(result.scaled.x[0])), WINDOW[0][1]), (-side, side)
+    ratio = result.groups.ellipticity
     spans = []
     for span, axis, slender in zip(
         WINDOW, (result.scaled.x, result.scaled.y), (1.0 / ratio, ratio), strict=True
@@ -285,8 +288,12 @@ def dress_contact(axes: Axes, result: Solution) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(3 if slender > 2 else 8, steps=STEPS))
     axes.yaxis.set_major_locator(MaxNLocator(3 if slender < 0.5 else 8, steps=STEPS))
     style: dict[str, Any] = {"color": "white", "ls": "--", "lw": 1.1, "zorder": 5}
-    first, second, angle = axes_of(*widths, result.groups.skew)
-    rim = Ellipse((0, 0), 2 * first, 2 * second, angle=np.degrees(angle), fill=False, **style)
+    if result.problem.contact.has_lines:
+        rim: Patch = Rectangle((-widths[0], -widths[1]), 2 * widths[0], 2 * widths[1], **style)
+        rim.set_fill(False)
+    else:
+        first, second, angle = axes_of(*widths, result.groups.skew)
+        rim = Ellipse((0, 0), 2 * first, 2 * second, angle=np.degrees(angle), fill=False, **style)
     axes.add_patch(rim).set_path_effects(outline("0.25", 1.9))
     if result.problem.motion.mean_spin:
         _velocities(axes, result)

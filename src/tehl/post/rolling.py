@@ -1,4 +1,4 @@
-"""Rolling friction and rolling moment of a line contact.
+"""Rolling friction and rolling moment of a line contact or a roller.
 
 The pressure lies upstream of the middle, by a shift e: the load makes the moment w e about it. The
 flow by the pressure balances it with a force F on each surface, w e = 2 F R (docs/theory/line.md).
@@ -9,13 +9,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.operators.upstream import NOTHING, beyond, rolling
+from tehl.contact.options import Domain
+from tehl.estimate.grid import Grid
+from tehl.operators.upstream import nothing, rolling, upstream_of
 from tehl.result.solution import Solution
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Rolling:
-    """Rolling friction of one metre of a line contact."""
+    """Rolling friction of a roller, or of one metre of a line contact."""
 
     force: float
     """F on each surface, against its motion [N]."""
@@ -32,30 +34,29 @@ class Rolling:
 
 
 def rolling_friction(result: Solution) -> Rolling | None:
-    """Return the rolling friction of a line contact; None for other shapes and without a film."""
+    """Return the rolling friction of a line or roller; None for ellipses and without a film."""
     problem = result.problem
-    if not problem.contact.is_line or not result.scaled.film.min() > 0.0:
+    if not problem.contact.has_lines or not result.scaled.film.min() > 0.0:
         return None
-    x, pressure, film = result.scaled.x, result.scaled.pressure[0], result.scaled.film[0]
-    upstream = NOTHING
+    scales, groups, here = result.scales, result.groups, result.scaled
+    ends = Domain.model_construct(x=(float(here.x[0]), float(here.x[-1])), y=groups.shape.sides)
+    grid = Grid(nx=here.x.size, ny=here.y.size, domain=ends, mirror=False)
+    upstream = nothing(grid)
     if result.oil is None or result.oil.fill[0, 0] == 1.0:  # the oil reaches further upstream
-        peak = int(np.argmax(pressure))
-        density = problem.lubricant.density.density(
-            result.pressure[0, peak], result.scales.temperature
-        )
-        flux = float(density) / result.scales.density * film[peak]
-        entering = result.scaled_problem.entering
-        upstream = beyond(float(x[0]), float(film[0]), min(flux, float(film[0])), entering)
-    flow, ratio = rolling(x, pressure, film, upstream)
-    scales, groups = result.scales, result.groups
-    force = 0.5 * flow * scales.hertz_pressure * scales.film_thickness
-    arm = flow * scales.hertz_pressure * scales.half_width_x**2
+        peaks = result.pressure.argmax(axis=1)[:, None]
+        largest = np.take_along_axis(result.pressure, peaks, axis=1)
+        density = problem.lubricant.density.density(largest, scales.temperature) / scales.density
+        oil = (density * np.take_along_axis(here.film, peaks, axis=1))[:, 0]
+        upstream = upstream_of(grid, here.film, oil, result.scaled_problem.entering)
+    flow, ratio = rolling(here.x, here.pressure, here.film, upstream, grid.widths)
+    force = 0.5 * flow * scales.hertz_pressure * scales.film_thickness * scales.half_width_y
+    arm = flow * scales.hertz_pressure * scales.half_width_x**2 * scales.half_width_y
     load = problem.shape.load_unit(problem.radius_x, problem.reduced_modulus)
     return Rolling(
         force=force,
         moment=arm,
         shift=arm / result.load,
-        tail_share=upstream.rolling / flow,
+        tail_share=float(upstream.rolling @ grid.widths) / flow,
         closure_error=ratio - 1.0,
         T=force / load * groups.W**-1.5,
     )

@@ -70,7 +70,7 @@ def surroundings(
     problem, scales = result.problem, result.scales
     if (
         problem.supply is not None
-        or problem.contact.is_line
+        or problem.contact.has_lines
         or not np.isfinite(result.scaled.film).all()
     ):
         return None

@@ -319,10 +319,14 @@ def _contact_as_summary(case: Explanation) -> dict[str, Any]:
         "entrainment_speed_m_s": problem.entrainment_speed,
         "reduced_modulus_pa": problem.reduced_modulus,
         "radius_x_m": problem.radius_x,
-        "radius_y_m": None if problem.contact.is_line else problem.radius_y,
+        "radius_y_m": None if problem.contact.has_lines else problem.radius_y,
     }
 
 
-def _finite(numbers: dict[str, float]) -> dict[str, float | None]:
+def _finite(numbers: dict[str, Any]) -> dict[str, float | None]:
     """Return numbers, None for those that a line contact does not have."""
-    return {name: one if math.isfinite(one) else None for name, one in numbers.items()}
+    return {
+        name: one if math.isfinite(one) else None
+        for name, one in numbers.items()
+        if isinstance(one, float)
+    }

@@ -76,7 +76,7 @@ _RUBBER = f"a polymer or rubber? Otherwise {_UNIT}"
 _YIELD = "the solids would yield, check load, radius and modulus"
 _BLUNT = "check the units of rms and summit_radius"
 _SHARP = f"summits this sharp would yield, {_BLUNT}"
-_WIDE = "wider contacts may not converge, and line contacts are not supported"
+_WIDE = 'a line contact has contact.type = "line", a roller "roller"'
 
 
 def questions(
@@ -123,14 +123,14 @@ def typical_ranges(scaled: ScaledProblem) -> Iterator[Typical]:
     soft, rigid = "check for a soft or lightly loaded contact", "check that the contact is elastic"
     across: tuple[Any, ...] = (
         ("reduced radius_y", problem.radius_y, 1e-4, 5, "m", _UNIT),
-        ("a_y / a_x", groups.ellipticity, 0.05, 30, "", "check the order of the radii", _WIDE),
+        ("a_y / a_x", groups.ellipticity, 0.05, 60, "", "check the order of the radii", _WIDE),
     )
     for row in (
         ("Hertz pressure", hertz.pressure / 1e9, 0.05, 4, "GPa", soft, _YIELD),
         ("reduced radius_x", problem.radius_x, 1e-4, 5, "m", _UNIT),
         ("entrainment speed", problem.entrainment_speed, 1e-4, 100, "m/s", _UNIT),
         ("a_x / R_x", slender, 0, 0.2, "", "the solids are not half-spaces on this scale"),
-        *(() if problem.contact.is_line else across),
+        *(() if problem.contact.has_lines else across),
         ("Moes M", groups.M, 1, 10000, "", rigid, "check the load: a very fine grid is needed"),
         ("Moes L", groups.L, 0, 25, "", "check speed and viscosity"),
     ):

@@ -239,7 +239,7 @@ class FilmSolver(GridIteration):
         """Let the next grid start without film, heat and relaxation of ``levels``."""
         self.accepted = False
         self.coupling.reset(levels)
-        for level in levels:
+        for level in (*levels, *self.hierarchy.between.values()):
             level.set_relaxation(self.strategy.first_relaxation)
 
     def _is_acceptable(self, trace: GridTrace) -> bool:

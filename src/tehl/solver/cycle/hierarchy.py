@@ -1,24 +1,32 @@
 """The grids of a contact, coarsest first, the cycle on them, and the solver of the coarsest one."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from contextlib import nullcontext
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
 
 from tehl.base.typing import Array
 from tehl.contact.options import Options
-from tehl.estimate.grid import Grid, halved_grids
-from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.grid import (
+    LONG_STRETCH,
+    Grid,
+    coarsest_of,
+    cycle_grids,
+    halved_grids,
+    ladder_of,
+)
+from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.summits import shared_load
-from tehl.kernels import reynolds
-from tehl.kernels.coarsest import Coarse, CoarseSystem, newton_step
+from tehl.kernels.coarsest import CoarseSystem, newton_step
 from tehl.operators.flow import flow_table
-from tehl.operators.influence import dense_matrix
+from tehl.operators.influence import matrix_of
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.level import Level
-from tehl.solver.cycle.linearised import conductance_slopes
+from tehl.solver.cycle.linearised import linearised, residual_of
+from tehl.solver.cycle.newton import one_thread
 from tehl.solver.cycle.relaxation import Relaxation
 from tehl.solver.cycle.start import from_coarser, from_dry_pressure, pose_problem
 from tehl.solver.cycle.transfers import TRANSFERS
@@ -58,20 +66,16 @@ class CoarsestSolver:
         self.level = level
         equations = level.equations
         grid = equations.grid
-        self.influence = dense_matrix(grid.shape, grid.mirror, equations.influence)
+        self.influence = matrix_of(grid, equations.influence)
 
     def step(self) -> None:
         """Perform a Newton step of limited length in place."""
         level = self.level
         level.update()
-        # unlike evaluate_residual, not zero at cavitated nodes: the Newton step may wet them
-        residual = np.empty_like(level.residual)
         stencil = level.equations.robust
-        reynolds.operator(level.film, stencil, residual)
-        np.subtract(level.sources.reynolds, residual, out=residual)
         laws, answer = level.equations.asperities, level.share.response
         system = CoarseSystem(
-            residual=residual,
+            residual=residual_of(level),
             influence=self.influence,
             frozen=level.smoother.frozen,
             area=level.equations.load.area,
@@ -80,7 +84,8 @@ class CoarsestSolver:
             nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
         )
         before = level.film.p.copy(), level.film.asperity.copy()
-        change = newton_step(self._linearised(), stencil, system, LONGEST_STEP)
+        with one_thread() if level.grid.is_closed else nullcontext():
+            change = newton_step(linearised(level), stencil, system, LONGEST_STEP)
         level.move(change)
         if laws is not None:
             self._shorten(before, change)
@@ -96,44 +101,29 @@ class CoarsestSolver:
                 return
             change *= 0.5
             level.move(-change)
-            for field, old, new in zip((film.p, film.asperity), before, after, strict=True):
+            for one, old, new in zip((film.p, film.asperity), before, after, strict=True):
                 new[:] = 0.5 * (old + new)
-                field[:] = new
+                one[:] = new
 
-    def _linearised(self) -> Coarse:
-        """Return film and conductance with the derivatives of the conductance."""
-        film, factors, answer = self.level.film, self.level.factors, self.level.share.response
-        by_pressure, by_film = conductance_slopes(self.level)
-        ones = np.ones_like(film.p)
-        stretch_x, stretch_y = (
-            (ones, ones) if factors is None else (factors.stretch_x, factors.stretch_y)
-        )
-        if film.across.size:
-            stretch_y = stretch_y * film.across
-        rho = film.rho * film.opening if film.opening.size else film.rho
-        return Coarse(
-            *film[:3],
-            rho=rho,
-            drho=film.drho,
-            eps_p=by_pressure,
-            eps_h=by_film,
-            stretch_x=stretch_x,
-            stretch_y=stretch_y,
-            partial=film.partial,
-            second=film.second,
-            stiffness=film.stiffness,
-            asperity=film.asperity,
-            lift=ones if answer is None else answer.lift,
-            speed=film.speed,
-            drift=film.drift,
-        )
+
+def has_long_cells(grid: Grid, groups: Groups) -> bool:
+    """Whether cycles halve columns before lines: on rollers, and on cells much longer along y.
+
+    Parameters
+    ----------
+    grid, groups : Grid, Groups
+        The finest one, and the shape of the contact.
+    """
+    stretch = groups.ellipticity * grid.dy / grid.dx
+    return grid.is_closed or (grid.ny > 1 and stretch > LONG_STRETCH)
 
 
 @dataclass(frozen=True, slots=True)
 class Hierarchy:
     """The levels of a contact, coarsest first, and the solver of the coarsest.
 
-    ``expected_film`` is the central film by formula [-].
+    ``expected_film`` is the central film by formula [-]. Where cells are long, cycles halve columns
+    before lines, to levels in ``between``.
     """
 
     scaled: ScaledProblem
@@ -141,6 +131,28 @@ class Hierarchy:
     levels: list[Level]
     coarsest: CoarsestSolver
     expected_film: float
+    is_long: bool = False
+    between: dict[Grid, Level] = field(default_factory=dict)
+
+    def chain(self, levels: Sequence[Level]) -> Sequence[Level]:
+        """Return the levels of a cycle on the last of ``levels``, coarsest first.
+
+        Where cells are long, these are not those of full multigrid, which differ by halving columns
+        and lines so that they show the order of the errors.
+        """
+        if not self.is_long or len(levels) < 2:
+            return levels
+        known, fine = {one.grid: one for one in self.levels} | self.between, levels[-1]
+        grids = cycle_grids(fine.grid, self.levels[0].grid)
+        for grid in grids:
+            if grid not in known:
+                made = Level(self._equations(grid), fine.smoother.relaxation)
+                known[grid] = self.between[grid] = made
+        return [known[grid] for grid in grids]
+
+    def _equations(self, grid: Grid) -> Equations:
+        flow = self.levels[0].equations.flow
+        return Equations.on(grid, self.scaled, flow, self.options)
 
     @classmethod
     def on(
@@ -160,22 +172,24 @@ class Hierarchy:
             Wedge order and deformation; settings of the smoother.
         """
         flow, film = flow_table(scaled), shared_load(scaled).gap
-        grids = halved_grids(finest)
         high = scaled.problem.asperity_rms / scaled.scales.film_thickness
         # of the parabolic gap, where film or asperities are thick
         widest, dense = max(1.0, (2.0 * max(film, high)) ** 0.5), LARGEST_DENSE
-        if finest.ny == 1:
+        if scaled.groups.shape.as_line:
             widest, dense = LINE_COARSEST * widest, LINE_DENSE
-        while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= dense:
-            del grids[0]
+        is_long = has_long_cells(finest, scaled.groups)
+        if is_long:
+            grids = ladder_of(finest, coarsest_of(finest, widest))
+        else:
+            grids = halved_grids(finest)
+            while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= dense:
+                del grids[0]
         levels = [Level(Equations.on(g, scaled, flow, options), relaxation) for g in grids]
-        return cls(scaled, options, levels, CoarsestSolver(levels[0]), film)
+        return cls(scaled, options, levels, CoarsestSolver(levels[0]), film, is_long)
 
     def refine(self, relaxation: Relaxation) -> None:
         """Append a level of half the mesh width."""
-        grid, flow = self.finest.grid.finer(), self.finest.equations.flow
-        equations = Equations.on(grid, self.scaled, flow, self.options)
-        self.levels.append(Level(equations, relaxation))
+        self.levels.append(Level(self._equations(self.finest.grid.finer()), relaxation))
 
     @property
     def finest(self) -> Level:
@@ -184,6 +198,7 @@ class Hierarchy:
 
     def cycle(self, levels: Sequence[Level]) -> None:
         """Perform one multigrid cycle on ``levels``."""
+        levels = self.chain(levels)
         options, mesh_width = self.options, levels[0].grid.dx
         conserves = levels[0].cavity.is_balanced
         shape = Cycle(

@@ -74,6 +74,7 @@ class GridIteration:
             self.options,
             slide_in_steps=strategy.slide_in_steps,
             damping=strategy.damping,
+            chain=hierarchy.chain,
         )
         self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
         self.traces: list[GridTrace] = []  # of each grid, coarsest first
@@ -183,7 +184,7 @@ class GridIteration:
         finer = len(self.levels) - len(levels)
         full = self.goal.is_open or finer < COMPARED_GRIDS
         if self.coupling.begin(levels, finest=not finer, full=full):
-            for level in levels:
+            for level in (*levels, *self.hierarchy.between.values()):
                 level.set_relaxation(self.strategy.relaxation)
         return cycles
 

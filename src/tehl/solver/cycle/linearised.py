@@ -3,6 +3,8 @@
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.kernels import reynolds
+from tehl.kernels.coarsest import Coarse
 from tehl.kernels.properties import Film
 from tehl.solver.cycle.level import Level
 
@@ -38,3 +40,43 @@ def conductance_slopes(level: Level) -> tuple[Array, Array]:
     )
     level.update_properties(shifted)
     return (shifted.eps - film.eps) / PRESSURE_STEP, level.share.widening(level)
+
+
+def linearised(level: Level) -> Coarse:
+    """Return film and conductance of a level with the derivatives of the conductance."""
+    film, factors, answer = level.film, level.factors, level.share.response
+    by_pressure, by_film = conductance_slopes(level)
+    ones = np.ones_like(film.p)
+    stretch_x, stretch_y = (
+        (ones, ones) if factors is None else (factors.stretch_x, factors.stretch_y)
+    )
+    if film.across.size:
+        stretch_y = stretch_y * film.across
+    rho = film.rho * film.opening if film.opening.size else film.rho
+    return Coarse(
+        *film[:3],
+        rho=rho,
+        drho=film.drho,
+        eps_p=by_pressure,
+        eps_h=by_film,
+        stretch_x=stretch_x,
+        stretch_y=stretch_y,
+        partial=film.partial,
+        second=film.second,
+        stiffness=film.stiffness,
+        asperity=film.asperity,
+        lift=ones if answer is None else answer.lift,
+        speed=film.speed,
+        drift=film.drift,
+    )
+
+
+def residual_of(level: Level) -> Array:
+    """Return the residual of a level with the wedge of coarser levels, (ny, nx).
+
+    Unlike that of `Level.evaluate_residual` it is not zero at cavitated nodes: a Newton step may
+    wet them.
+    """
+    residual = np.empty_like(level.residual)
+    reynolds.operator(level.film, level.equations.robust, residual)
+    return np.subtract(level.sources.reynolds, residual, out=residual)

@@ -183,7 +183,7 @@ class ContactCycles(Cycles):
         visit.fine.share.stays = self.is_smoother
         if not self.is_smoother:
             closing = visit.balanced_below if visit.is_last else 0.0
-            self.touching = TouchingCycle(visit.levels, self.cycle, closing)
+            self.touching = TouchingCycle(visit.hierarchy.chain(visit.levels), self.cycle, closing)
             self.step = self.touching.step
 
     def raise_heights(self, iterate: Iterate) -> None:

@@ -27,7 +27,7 @@ from threadpoolctl import ThreadpoolController
 from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
 from tehl.kernels import reynolds
-from tehl.operators.influence import dense_matrix, influence_of
+from tehl.operators.influence import influence_of, matrix_of
 from tehl.operators.jacobian import Neighbours, interpolation, jacobian, neighbours_of, rows
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.linearised import (
@@ -85,7 +85,7 @@ class Newton:
         )
         self.same = np.asarray(self.to_fine.argmax(axis=0)).ravel()  # fine node at each coarse one
         coarse_influence = influence_of(coarse, level.equations.groups)
-        self.deflection = dense_matrix(coarse.shape, coarse.mirror, coarse_influence)
+        self.deflection = matrix_of(coarse, coarse_influence)
         weights = np.full(
             level.grid.shape, level.equations.load.area * (2.0 if level.grid.mirror else 1.0)
         )

@@ -13,10 +13,10 @@ from typing import Protocol
 import numpy as np
 
 from tehl.base.typing import Array, FlagArray, IntArray
-from tehl.estimate.grid import Grid
+from tehl.estimate.grid import LONG_STRETCH, Grid
 from tehl.kernels import relaxation as kernels
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import Stencil
+from tehl.kernels.reynolds import CLOSED, Stencil
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence
 from tehl.operators.reynolds import curved_influence, line_influence
@@ -55,16 +55,28 @@ CAREFUL = Relaxation(name="careful", threshold=1.0, point=0.5, dipole=0.35, line
 DAMPED = Relaxation(name="damped", threshold=1.0, point=0.3, dipole=0.2, lines=4, stiff=True)
 BESIDE_NEWTON = Relaxation(name="newton", threshold=1.0, point=0.5, dipole=0.35)
 GAUSS_SEIDEL = Relaxation(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
-HELD, LINE_THRESHOLD, LINE_POINT, LINE_DIPOLE = 1.0, 3.0, 0.7, 0.67
+HELD, HELD_LONG, ROLLER_STRETCH = 1.0, 0.8, 1.5
+LINE_THRESHOLD, LINE_POINT, LINE_DIPOLE = 3.0, 0.7, 0.67
 """In a line contact: conductance to neighbours that are held, over that along the line, and factors
 on the settings. The one line holds all unknowns, and its system lacks the deflection from afar: it
 must not move smooth errors, as lines between held ones do not. Least number of cycles for M = 5 to
-200, L = 0 to 11 on 513 to 2049 nodes: 0.2 to 0.5 of the residual is left by each."""
+200, L = 0 to 11 on 513 to 2049 nodes: 0.2 to 0.5 of the residual is left by each. The second is
+that of long cells, beside which lines are held a little: with it 0.15 to 0.26 is left for a_y/a_x =
+10 to 50, M = 1000 to 4000. The third is the length of cells over their width from which on those
+of a roller are long: as all its lines are alike, an error at the end of its film is one of all."""
+
+
+def is_long(stencil: Stencil) -> bool:
+    """Whether lines of a grid conduct so little across that each is a line contact nearby."""
+    stretch = ROLLER_STRETCH if stencil.mirror >= CLOSED else LONG_STRETCH
+    return stencil.cy * stretch**2 < stencil.cx
 
 
 class Smoother(Protocol):
     """Relaxation of the pressure of one level."""
 
+    relaxation: Relaxation
+    """Settings."""
     frozen: FlagArray
     """Nodes that keep their pressure on this level, (ny, nx) of 0 and 1."""
     ends: IntArray
@@ -87,14 +99,14 @@ def _dipole_parts(influence: Influence, stencil: Stencil) -> tuple[float, float]
 
     A quarter each (Venner and Lubrecht 2000) on square cells. On cells longer along one direction
     the neighbours there are too far to cancel the film of the node: each part is in proportion to
-    the inverse square of the distance. Wedges of second order keep the quarters. On a line contact
-    there are two neighbours.
+    the inverse square of the distance. Wedges of second order keep the quarters unless cells are
+    long. On a line contact there are two neighbours.
     """
     if stencil.cy == 0.0:
         return 0.5, 0.0
-    if stencil.third == 0.0:
-        return 0.25, 0.25
     ratio = (influence.dx / influence.dy) ** 2
+    if stencil.third == 0.0 and not is_long(stencil):
+        return 0.25, 0.25
     return 0.5 / (1.0 + ratio), 0.5 * ratio / (1.0 + ratio)
 
 
@@ -141,7 +153,7 @@ class LineSmoother:
             touches=int(touches),
             curved=np.zeros((0, 0)) if curved is None else curved,
         )
-        self.is_stiff = relaxation.stiff
+        self.relaxation, self.is_stiff = relaxation, relaxation.stiff
 
     def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place.
@@ -159,8 +171,8 @@ class LineSmoother:
         """
         if self.is_stiff:
             kernels.stiffen(film, stencil, flow, self.stiffness)
-        if stencil.cy == 0.0:
-            held = HELD * stencil.cx * film.eps_x
+        if is_long(stencil):
+            held = (HELD if stencil.cy == 0.0 else HELD_LONG) * stencil.cx * film.eps_x
             self.stiffness[:] = self.stiffness + held if self.is_stiff else held
         kernels.relax_lines(film, stencil, rhs, self.workspace)
 
@@ -172,7 +184,7 @@ class PointSmoother:
         self.frozen = np.zeros(grid.shape, np.uint8)
         self.ends = np.full(grid.shape[0], grid.nx - 1)
         self.point, _ = line_influence(influence)
-        self.omega = relaxation.point
+        self.relaxation, self.omega = relaxation, relaxation.point
 
     def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place.
@@ -204,8 +216,9 @@ def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
     """
     if relaxation is GAUSS_SEIDEL:
         return PointSmoother(equations.grid, equations.influence, relaxation)
-    if equations.stencil.cy == 0.0:
-        relaxation = replace(
+    settings = relaxation
+    if is_long(equations.stencil):
+        settings = replace(
             relaxation,
             threshold=LINE_THRESHOLD * relaxation.threshold,
             point=LINE_POINT * relaxation.point,
@@ -215,6 +228,8 @@ def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
     parts = _dipole_parts(influence, equations.stencil)
     spins = equations.entrainment.speed.size > 0
     curved = curved_influence(influence, equations.stencil, parts) if spins else None
-    return LineSmoother(
-        equations.grid, influence, relaxation, touches=touches, parts=parts, curved=curved
+    smoother = LineSmoother(
+        equations.grid, influence, settings, touches=touches, parts=parts, curved=curved
     )
+    smoother.relaxation = relaxation
+    return smoother

@@ -4,7 +4,8 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
-from tehl.operators.transfer import refine
+from tehl.operators.dry import dry_pressure
+from tehl.operators.transfer import refine, refine_signed
 from tehl.result.solution import Solution
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.level import Level
@@ -70,6 +71,12 @@ def from_coarser(coarse: Level, fine: Level) -> None:
         The unknowns of the finer one change in place.
     """
     oil, asperity = refine(coarse.film.p, fine.grid), coarse.film.asperity
+    if fine.grid.is_closed and fine.grid.shape[0] > coarse.grid.shape[0]:
+        # at the ends of a roller the dry pressure is steep, but not the difference to it
+        dry, groups = coarse.film.p.copy(), coarse.equations.groups
+        dry -= dry_pressure(coarse.grid, groups)
+        rise = refine_signed(dry, fine.grid)
+        oil = np.where(oil > 0.0, np.maximum(dry_pressure(fine.grid, groups) + rise, 0.0), 0.0)
     asperity = refine(asperity, fine.grid) if asperity.size else asperity
     fine.set_state(oil, coarse.rigid_approach, asperity)
 
@@ -111,7 +118,6 @@ def _values_on(grid: Grid, guess: Solution, pressure: Array) -> Array:
         columns = [np.interp(grid.y, y, column, left=0.0, right=0.0) for column in pressure.T]
         pressure = np.array(columns).T
     found = np.maximum(pressure, 0.0)
-    found[-1] = found[:, 0] = found[:, -1] = 0.0
-    if not grid.mirror:
-        found[0] = 0.0
+    found[:, 0] = found[:, -1] = 0.0
+    found[list(grid.edge_rows)] = 0.0
     return found

@@ -10,6 +10,7 @@ with I u the injected or weighted fine solution and R full weighting.
 import numpy as np
 
 from tehl.kernels import reynolds, transfer
+from tehl.operators.transfer import injected
 from tehl.solver.cycle.fas import Transfers
 from tehl.solver.cycle.level import Level
 
@@ -57,7 +58,7 @@ def restrict_film(fine: Level, coarse: Level) -> None:
     conductance of the coarse grid follow from the injected film.
     """
     g = coarse.sources.film
-    coarse.separation[:] = fine.share.gap(fine)[::2, ::2]
+    coarse.separation[:] = injected(fine.share.gap(fine), coarse.separation)
     coarse.share.receive(coarse)
     coarse.equations.deformation.deflect(coarse.pressure, g)
     np.subtract(coarse.separation, g, out=g)

@@ -7,11 +7,11 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.estimate.scaling import ScaledProblem
+from tehl.operators.dry import dry_pressure
 from tehl.operators.energy import FilmState
-from tehl.operators.film import dry_pressure
 from tehl.operators.heated_film import stress_unit
 from tehl.operators.loaded_zone import contact_mean, is_inside, wet_part, zone_of
-from tehl.operators.upstream import NOTHING, beyond, rolling
+from tehl.operators.upstream import nothing, rolling, upstream_of
 from tehl.post.heat import Rises, lagrange_weights
 from tehl.post.roughness import ripples
 from tehl.solver.cycle.level import Level
@@ -52,7 +52,7 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
         **_spike(level),
     }
     found |= level.share.parts(level)
-    if level.grid.ny == 1:
+    if level.equations.groups.shape.as_line:
         found |= line_rolling(level, scaled)
     if level.heights is not None:
         ripple_film, ripple_pressure = ripples(level.grid.x, level.grid.y, level.film.h, pressure)
@@ -84,21 +84,24 @@ def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
 
 
 def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
-    """Return the rolling integral of a line contact [-], and its error by the oil upstream [-].
+    """Return the rolling integral of a line or roller [-], and its error by the oil upstream [-].
 
     Parameters
     ----------
     level, scaled : Level, ScaledProblem
         The grid, and the contact.
     """
-    film, upstream = level.film, NOTHING
-    if scaled.problem.supply is None or film.partial[0, 0] == 0:  # oil reaches further upstream
-        peak, inlet = int(film.p[0].argmax()), float(film.h[0, 0])
-        flux = min(float(film.rho[0, peak] * film.h[0, peak]), inlet)
-        upstream = beyond(level.grid.domain.x[0], inlet, flux, scaled.entering)
-    found = rolling(level.grid.x, film.p[0], film.h[0], upstream)[0]
+    film, grid = level.film, level.grid
+    upstream = nothing(grid)
+    # oil reaches further upstream
+    if scaled.problem.supply is None or film.partial[0, 0] == 0:
+        peaks = film.p.argmax(axis=1)[:, None]
+        oil = np.take_along_axis(film.rho * film.h, peaks, axis=1)[:, 0]
+        upstream = upstream_of(grid, film.h, oil, scaled.entering)
+    found = rolling(grid.x, film.p, film.h, upstream, grid.widths)[0]
     error = TAIL_ERROR if level.far_field is not None else TAIL_OF_ZERO_EDGE
-    return {"rolling": found, "rolling_tail": error * abs(upstream.rolling / found)}
+    tail = float(upstream.rolling @ grid.widths)
+    return {"rolling": found, "rolling_tail": error * abs(tail / found)}
 
 
 def film_numbers(level: Level) -> dict[str, float]:

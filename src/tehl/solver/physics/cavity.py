@@ -13,6 +13,7 @@ from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.kernels import reynolds, transfer
 from tehl.kernels.properties import Factors, Film
+from tehl.operators.transfer import injected
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Smoother
 from tehl.solver.physics.share import OilAlone
@@ -168,7 +169,7 @@ class Conserving(ZeroPressure):
     def inject(self, fine: Wetted, coarse: Wetted) -> None:
         """Inject the marks of partly filled nodes."""
         if fine.stencil.conserves == reynolds.STEADILY:
-            coarse.film.partial[:] = fine.film.partial[::2, ::2]
+            coarse.film.partial[:] = injected(fine.film.partial, coarse.film.partial)
             reynolds.mark_second_order(coarse.film, coarse.stencil)
 
     def restrict(self, fine: Wetted, coarse: Wetted) -> None:

@@ -12,6 +12,7 @@ from scipy.ndimage import distance_transform_edt
 
 from tehl.base.typing import Array
 from tehl.contact.dynamics import Dynamics
+from tehl.operators.transfer import injected
 from tehl.result.fields import FilmDynamics
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
@@ -268,7 +269,7 @@ def _coarse_changes(run: FilmSolver, omegas: Array, excess: Array | None) -> Cha
     if not levels:
         return None
     level = levels[-1]
-    level.set_state(fine.film.p[::2, ::2], fine.rigid_approach)
+    level.set_state(injected(fine.film.p, level.film.p), fine.rigid_approach)
     pose_problem(level)
     if excess is not None:
         level.update()
@@ -279,6 +280,8 @@ def _coarse_changes(run: FilmSolver, omegas: Array, excess: Array | None) -> Cha
         level.update()
         if not (level.evaluate_residual() < 1e-4 and abs(level.load_error()) < 1e-4):
             return None
-        return changes(levels, omegas, None if excess is None else excess[::2, ::2], inputs=1)
+        return changes(
+            levels, omegas, None if excess is None else injected(excess, level.film.p), inputs=1
+        )
     except ArithmeticError:
         return None

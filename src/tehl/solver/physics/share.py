@@ -15,8 +15,9 @@ from tehl.base.typing import Array, BoolArray, FlagArray
 from tehl.contact.boundary_contact import TOUCHING_MARGIN
 from tehl.kernels import summits
 from tehl.kernels.properties import Factors, Film
-from tehl.operators.film import dry_pressure
+from tehl.operators.dry import dry_pressure
 from tehl.operators.summits import AsperityTable
+from tehl.operators.transfer import injected
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Smoother
 from tehl.solver.judging.film_summary import central_value
@@ -296,7 +297,7 @@ class Response:
 
     def injected(self, approach: float, pressure: Array) -> "Response":
         """Return the response on the next coarser grid, from its present state."""
-        lift = self.lift[::2, ::2].copy()
+        lift = injected(self.lift, pressure).copy()
         return Response(lift, self.stiffness, approach, pressure.copy())
 
 

@@ -5,7 +5,7 @@ and density, which are constant during a cycle and injected to the coarser grids
 (docs/theory/numerics-thermal.md on the coupling with the film).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +17,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels import properties
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import HeatedFilm
-from tehl.operators.transfer import midpoints
+from tehl.operators.transfer import injected, midpoints
 from tehl.solver.cycle.level import Level
 
 COUPLED_FROM = 64
@@ -47,6 +47,8 @@ of a pressure not yet converged may increase the mobility by orders of magnitude
 FIRST_CHANGE = 8.0
 """Change of temperature [K] at which the first sweeps end."""
 
+Chain = Callable[[Sequence[Level]], Sequence[Level]]
+
 
 class Coupling:
     """Effects of heat and shear thinning on the film; none if it is isothermal and Newtonian.
@@ -61,6 +63,8 @@ class Coupling:
         Damping factor of the logarithms of mobility and density per sweep, 1 is undamped [-]. On
         rough flanks the pressure gradient may cause nearly all heat and thinning; undamped, the
         flow increases both before the pressure can fall, and the iteration diverges.
+    chain : callable
+        Returns the levels of a cycle on the last of some levels.
     """
 
     def __init__(
@@ -70,7 +74,9 @@ class Coupling:
         *,
         slide_in_steps: bool = False,
         damping: float = 1.0,
+        chain: Chain = list,
     ) -> None:
+        self.chain = chain
         self.scaled, is_coupled = scaled, scaled.problem.is_coupled
         self.film = HeatedFilm(scaled) if is_coupled else None
         self.wedge_order = options.order
@@ -119,7 +125,9 @@ class Coupling:
             if not all(side.marches for side in self.film.sides):
                 state.update_surfaces()
             assert levels[-2].factors is not None  # that grid is heated
-            self._set_factors(levels, properties.Factors(*map(midpoints, levels[-2].factors)))
+            shape = fine.grid.shape
+            factors = properties.Factors(*(midpoints(one, shape) for one in levels[-2].factors))
+            self._set_factors(levels, factors)
             return True
         # the first heated grid starts from the inlet temperature everywhere
         for _ in range(FIRST_SWEEPS):
@@ -172,7 +180,7 @@ class Coupling:
         if self.film is None:
             return
         self.state = None
-        for level in levels:
+        for level in (*levels, *self.chain(levels)):
             level.sources.drift = None
             level.couple(None)
 
@@ -312,14 +320,16 @@ class Coupling:
             factors = damped(before, factors, isothermal.eps, self.damping)
         self._set_factors(levels, factors)
 
-    @staticmethod
-    def _set_factors(levels: Sequence[Level], factors: properties.Factors) -> None:
+    def _set_factors(self, levels: Sequence[Level], factors: properties.Factors) -> None:
         """Set the factors of the last of ``levels``, and inject them to the coarser ones."""
         fine = levels[-1]
         fine.cavity.limit(fine, factors)
-        for level in reversed(levels):
+        for level in reversed(self.chain(levels)):
+            # injected to the coarser ones
+            here = (injected(array, level.film.p) for array in factors)
+            if level is not fine:
+                factors = properties.Factors(*(array.copy() for array in here))
             level.couple(factors)
-            factors = properties.Factors(*(array[::2, ::2].copy() for array in factors))  # injected
         fine.update_properties()
         fine.write_source()
 

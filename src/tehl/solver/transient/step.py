@@ -89,16 +89,17 @@ class Stepper:
         self.oil = Oil(level, transient.stride, solver.options.order, schedule)
         self.predictor = Predictor(level.pressure, transient.stride)
         # all levels take the same time step, and so the same weight of rho H
-        for one in solver.levels:
+        levels = solver.hierarchy.chain(solver.levels)
+        for one in levels:
             stencil = step_stencil(one.stencil, schedule.step)
             one.equations = replace(one.equations, stencil=stencil)
         self.equations = level.equations  # with load and gap of the start
         self.method: Callable[[], None] = partial(
-            cycle, solver.levels, solver.hierarchy.coarsest.step, TRANSFERS, SHAPE
+            cycle, levels, solver.hierarchy.coarsest.step, TRANSFERS, SHAPE
         )
         self.touching: TouchingCycle | None = None
         if level.equations.contact_film is not None:
-            self.touching = TouchingCycle(solver.levels, self.method)
+            self.touching = TouchingCycle(levels, self.method)
             self.method = self.touching.step
         self.squeeze: Squeeze | Lead
         if varying is not None:
@@ -159,7 +160,7 @@ class Stepper:
     def choose(self, number: int) -> None:
         """Set the relaxation, with at least the threshold of dipoles that the time step needs."""
         self.setting, setting = number, self.settings[number]
-        for level in self.solver.levels:
+        for level in self.solver.hierarchy.chain(self.solver.levels):
             # below this conductance smooth errors grow if nodes relax as points
             least = level.stencil.w0 / WEIGHT_OF_POINTS
             threshold = max(setting.threshold, least)

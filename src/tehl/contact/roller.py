@@ -1,0 +1,149 @@
+r"""The shape of a roller of finite length on a raceway.
+
+In the units of the line contact under its mean load, b along x and half the length along y,
+
+.. math:: H = H_{00} + \frac{X^2}{2} + g(Y) + K P, \qquad \int\!\!\int P\, dX dY = \pi, \quad
+          |Y| \le 1,
+
+with g from profile and tilt. Beyond its ends there is no roller and no pressure; both bodies are
+half-spaces there too.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+from tehl.base.typing import Array, np
+from tehl.contact.bodies import Radii
+from tehl.contact.hertz import HertzContact
+from tehl.contact.options import ROLLER_ENDS
+from tehl.contact.profile import Profile, Tabulated
+from tehl.contact.shape import LINE, Line
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Roller(Line):
+    """A roller, whose slices are lines of different loads."""
+
+    length: float
+    """Of the contact [m]."""
+    profile: Profile | None = None
+    """How it drops towards its ends; None is straight."""
+    tilt: float = 0.0
+    """Angle by which the gap opens along y [rad]."""
+    force: float = math.nan
+    half_width: float = math.nan
+    amplitude: float = math.nan
+    film_unit: float = math.nan
+    """Load [N], and of it b, 2 w/(pi E') and b^2/R [m]: set by `under`."""
+
+    load = math.pi
+    area = 4.0
+    sides = ROLLER_ENDS
+
+    def under(self, load: float, radii: Radii, modulus: float) -> "Roller":
+        """Return the roller under a load.
+
+        Parameters
+        ----------
+        load, radii, modulus : float, Radii, float
+            Load [N], reduced radii [m], and E' [Pa].
+        """
+        width = self.hertz(load, radii, modulus).half_width_x
+        return replace(
+            self,
+            force=load,
+            half_width=width,
+            amplitude=2.0 * load / (self.length * math.pi * modulus),
+            film_unit=width**2 / radii.x,
+        )
+
+    @property
+    def is_even(self) -> bool:
+        """Whether it is symmetric about y = 0."""
+        even = not isinstance(self.profile, Tabulated) or self.profile.is_even
+        return even and self.tilt == 0.0
+
+    def rise(self, y: Array) -> Array:
+        """Return g at Y [-]."""
+        drop: Array = 0.5 * self.length * self.tilt * y
+        if self.profile is not None:
+            drop = drop + self.profile.drop(np.clip(y, -1.0, 1.0), self)
+        return drop / self.film_unit
+
+    def gap(self, x: Array, y: Array) -> Array:
+        """Return X^2/2 + g(Y).
+
+        Parameters
+        ----------
+        x, y : Array
+            X and Y, which broadcast [-].
+        """
+        return 0.5 * x**2 + self.rise(y)
+
+    def share(self, y: Array) -> Array:
+        """Return the load of slices at Y over the mean one, if each deflects by itself [-].
+
+        By C times its load, in units of b^2/R with C = (1 + 2 ln 4 kappa)/4.
+        """
+        slices = np.linspace(-1.0, 1.0, 201)
+        compliance = 0.25 * (1.0 + 2.0 * math.log(2.0 * self.length / self.half_width))
+        rises, low = self.rise(slices), float(self.rise(slices).min())
+        high = float(rises.max()) + compliance
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            mean = float(np.maximum(middle - rises, 0.0).mean()) / compliance
+            low, high = (middle, high) if mean < 1.0 else (low, middle)
+        return np.maximum(high - self.rise(y), 0.0) / compliance
+
+    def dry_pressure(self, x: Array, y: Array) -> Array:
+        """Return that of slices of `share`, sqrt(f - X^2).
+
+        Parameters
+        ----------
+        x, y : Array
+            X and Y, which broadcast [-].
+        """
+        return np.sqrt(np.maximum(0.0, self.share(y) - x**2))
+
+    def dry_gap(self, x: Array, y: Array) -> Array:
+        """Return the gap of such slices.
+
+        Parameters
+        ----------
+        x, y : Array
+            X and Y, which broadcast [-].
+        """
+        share = np.maximum(self.share(y), 1e-6)
+        return share * LINE.dry_gap(x / np.sqrt(share), 0.0 * y)
+
+    def hertz(self, load: float, radii: Radii, modulus: float) -> HertzContact:
+        """Return the line contact under the mean load.
+
+        Parameters
+        ----------
+        load, radii, modulus : float, Radii, float
+            Load [N], reduced radii [m], and E' [Pa].
+        """
+        line = LINE.hertz(load / self.length, radii, modulus)
+        half = 0.5 * self.length
+        return replace(line, half_width_y=half, ellipticity=half / line.half_width_x)
+
+    def load_of_pressure(self, pressure: float, radii: Radii, modulus: float) -> float:
+        """Return the load [N].
+
+        Parameters
+        ----------
+        pressure, radii, modulus : float, Radii, float
+            Largest dry pressure of the mean load [Pa], reduced radii [m], and E' [Pa].
+        """
+        return self.length * LINE.load_of_pressure(pressure, radii, modulus)
+
+    def load_unit(self, radius: float, modulus: float) -> float:
+        """Return E' R_x times the length [N].
+
+        Parameters
+        ----------
+        radius, modulus : float
+            R_x [m] and E' [Pa].
+        """
+        return modulus * radius * self.length

@@ -1,0 +1,94 @@
+"""Rollers of finite length: dry pressure, middle and ends of the film, tilt; long cells."""
+
+import numpy as np
+import pytest
+
+import tehl
+from tehl.contact.options import Domain, Options
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
+from tehl.operators.dry import dry_pressure
+
+STEEL = {"material": "steel"}
+LOGARITHMIC = {"shape": "logarithmic"}
+
+
+def contact(**stated: object) -> tehl.ContactProblem:
+    """Return a contact of steel with L = 10."""
+    return tehl.ContactProblem(
+        contact={"moes_speed": 10.0, **stated},
+        surface_1=STEEL,
+        surface_2=STEEL,
+        lubricant="mineral-oil",
+    )
+
+
+def roller(load: float = 50.0, **stated: object) -> tehl.ContactProblem:
+    """Return a roller of 10 mm on a radius of 10 mm."""
+    shape = {"type": "roller", "radius": "10 mm", "length": "10 mm", "moes_load": load}
+    return contact(**shape | stated)
+
+
+@pytest.mark.parametrize("law", ["logarithmic", "lundberg"])
+def test_a_logarithmic_profile_is_pressed_evenly(law):
+    scaled = ScaledProblem.of(roller(profile={"shape": law}))
+    ends = Domain.model_construct(x=(-1.6, 1.6), y=(-1.0, 1.0))
+    grid = Grid(nx=65, ny=129, domain=ends, mirror=True)
+    loads = dry_pressure(grid, scaled.groups).sum(axis=1) * grid.dx / (0.5 * np.pi)
+    assert loads[grid.y < 0.9] == pytest.approx(1.0, abs=0.03)
+    assert loads @ grid.widths == pytest.approx(2.0, rel=1e-6)
+
+
+def test_the_middle_of_a_roller_is_a_line_contact():
+    found = tehl.solve(roller(profile=LOGARITHMIC), Options(points=(257, 129)))
+    line = tehl.solve(contact(type="line", radius="10 mm", moes_load=50.0))
+    row = found.scaled.film[64]
+    assert found.film_scaled.central == pytest.approx(line.film_scaled.central, rel=0.01)
+    assert row.min() == pytest.approx(line.film_scaled.minimum, rel=0.01)
+    # the identity w e = 2 F R, and the film at the ends is the thinnest
+    assert found.rolling.closure_error == pytest.approx(0.0, abs=1e-4)
+    assert found.rolling.T == pytest.approx(line.rolling.T, rel=0.05)
+    assert abs(found.scaled.y[found.scaled.film.min(axis=1).argmin()]) > 0.9
+
+
+def test_a_tilted_roller_mirrors_and_carries_more_where_the_gap_closes():
+    crowned = {"shape": "crown", "radius": "2 m"}
+    first, second = (
+        tehl.solve(roller(20.0, profile=crowned, tilt=tilt), Options(points=129))
+        for tilt in (2e-4, -2e-4)
+    )
+    assert first.scaled.film == pytest.approx(second.scaled.film[::-1], rel=2e-3)
+    loads = first.scaled.pressure.sum(axis=1)
+    assert loads[:64].sum() > 1.2 * loads[65:].sum()
+
+
+@pytest.mark.parametrize("stretch", [10.0, 20.0, 50.0])
+def test_wide_ellipses_converge_as_fast_as_circles(stretch):
+    # radii for a_y/a_x of 10 to 50, on cells up to 35 times as long as wide
+    ratio = {10.0: 36.5, 20.0: 117.6, 50.0: 581.0}[stretch]
+    wide = contact(radius_x="10 mm", radius_y=0.01 * ratio, moes_load=1000.0)
+    options = Options(points=(257, 129), smoother="fast", accuracy="tight", max_cycles=9)
+    try:
+        found = tehl.solve(wide, options)
+    except tehl.ConvergenceError as error:
+        found = error.result
+    assert found.groups.ellipticity == pytest.approx(stretch, rel=1e-3)
+    residuals = [one.residual for one in found.history if one.points == (257, 129)]
+    rate = (residuals[-1] / residuals[1]) ** (1.0 / (len(residuals) - 2))
+    assert rate < 0.3
+
+
+@pytest.mark.parametrize(
+    ("stated", "message"),
+    [
+        ({"length": None}, "needs length"),
+        ({"tilt": 1.0}, "rollers tilt by some 0.001 rad"),
+        ({"length": 1e-4}, "rollers are longer"),
+        ({"profile": {"shape": "iso-16281"}}, "needs diameter"),
+        ({"profile": {"shape": "table", "drops": [[0.0, 0.0], [1e-3, 1e-6]]}}, "does not cover"),
+        ({"type": "point"}, 'only a contact with type = "roller" has ends'),
+    ],
+)
+def test_bad_input_is_named(stated, message):
+    with pytest.raises(tehl.TehlError, match=message):
+        roller(**stated)
