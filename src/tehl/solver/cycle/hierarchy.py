@@ -106,16 +106,18 @@ class CoarsestSolver:
                 one[:] = new
 
 
-def has_long_cells(grid: Grid, groups: Groups) -> bool:
+def has_long_cells(grid: Grid, groups: Groups, *, touches: bool) -> bool:
     """Whether cycles halve columns before lines: on rollers, and on cells much longer along y.
 
     Parameters
     ----------
     grid, groups : Grid, Groups
         The finest one, and the shape of the contact.
+    touches : bool
+        Asperities below the grid carry load, see `is_long` of the relaxation.
     """
     stretch = groups.ellipticity * grid.dy / grid.dx
-    return grid.is_closed or (grid.ny > 1 and stretch > LONG_STRETCH)
+    return grid.is_closed or (grid.ny > 1 and stretch > LONG_STRETCH and not touches)
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +179,8 @@ class Hierarchy:
         widest, dense = max(1.0, (2.0 * max(film, high)) ** 0.5), LARGEST_DENSE
         if scaled.groups.shape.as_line:
             widest, dense = LINE_COARSEST * widest, LINE_DENSE
-        is_long = has_long_cells(finest, scaled.groups)
+        touches = scaled.problem.asperities is not None
+        is_long = has_long_cells(finest, scaled.groups, touches=touches)
         if is_long:
             grids = ladder_of(finest, coarsest_of(finest, widest))
         else:

@@ -66,10 +66,20 @@ that of long cells, beside which lines are held a little: with it 0.15 to 0.26 i
 of a roller are long: as all its lines are alike, an error at the end of its film is one of all."""
 
 
-def is_long(stencil: Stencil) -> bool:
-    """Whether lines of a grid conduct so little across that each is a line contact nearby."""
-    stretch = ROLLER_STRETCH if stencil.mirror >= CLOSED else LONG_STRETCH
-    return stencil.cy * stretch**2 < stencil.cx
+def is_long(stencil: Stencil, *, touches: bool = False) -> bool:
+    """Whether lines of a grid conduct so little across that each is a line contact nearby.
+
+    Parameters
+    ----------
+    stencil : Stencil
+        Weights across and along lines.
+    touches : bool
+        Asperities below the grid carry load: soft ones of an inner ring (a_y/a_x = 13) lose their
+        balance where lines of an ellipse are held.
+    """
+    if stencil.mirror >= CLOSED:
+        return stencil.cy * ROLLER_STRETCH**2 < stencil.cx
+    return stencil.cy * LONG_STRETCH**2 < stencil.cx and not (touches and stencil.cy > 0.0)
 
 
 class Smoother(Protocol):
@@ -94,7 +104,7 @@ class Smoother(Protocol):
         """
 
 
-def _dipole_parts(influence: Influence, stencil: Stencil) -> tuple[float, float]:
+def _dipole_parts(influence: Influence, stencil: Stencil, *, touches: bool) -> tuple[float, float]:
     """Return the parts by which a dipole lowers each of its neighbours along x and along y.
 
     A quarter each (Venner and Lubrecht 2000) on square cells. On cells longer along one direction
@@ -105,7 +115,7 @@ def _dipole_parts(influence: Influence, stencil: Stencil) -> tuple[float, float]
     if stencil.cy == 0.0:
         return 0.5, 0.0
     ratio = (influence.dx / influence.dy) ** 2
-    if stencil.third == 0.0 and not is_long(stencil):
+    if stencil.third == 0.0 and not is_long(stencil, touches=touches):
         return 0.25, 0.25
     return 0.5 / (1.0 + ratio), 0.5 * ratio / (1.0 + ratio)
 
@@ -171,7 +181,7 @@ class LineSmoother:
         """
         if self.is_stiff:
             kernels.stiffen(film, stencil, flow, self.stiffness)
-        if is_long(stencil):
+        if is_long(stencil, touches=bool(self.workspace.touches)):
             held = (HELD if stencil.cy == 0.0 else HELD_LONG) * stencil.cx * film.eps_x
             self.stiffness[:] = self.stiffness + held if self.is_stiff else held
         kernels.relax_lines(film, stencil, rhs, self.workspace)
@@ -216,16 +226,16 @@ def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
     """
     if relaxation is GAUSS_SEIDEL:
         return PointSmoother(equations.grid, equations.influence, relaxation)
-    settings = relaxation
-    if is_long(equations.stencil):
+    settings, touches = relaxation, equations.asperities is not None
+    if is_long(equations.stencil, touches=touches):
         settings = replace(
             relaxation,
             threshold=LINE_THRESHOLD * relaxation.threshold,
             point=LINE_POINT * relaxation.point,
             dipole=LINE_DIPOLE * relaxation.dipole,
         )
-    influence, touches = equations.influence, equations.asperities is not None
-    parts = _dipole_parts(influence, equations.stencil)
+    influence = equations.influence
+    parts = _dipole_parts(influence, equations.stencil, touches=touches)
     spins = equations.entrainment.speed.size > 0
     curved = curved_influence(influence, equations.stencil, parts) if spins else None
     smoother = LineSmoother(
