@@ -166,26 +166,18 @@ def halved(grid: Grid, axes: tuple[int, int]) -> Grid | None:
     return replace(grid, nx=nx + 1, ny=ny + 1)
 
 
-def cycle_grids(finest: Grid, coarsest: Grid, stretch: float) -> list[Grid]:
-    """Return the grids of a cycle where cells are long, coarsest first.
-
-    Columns are halved until cells are no longer long, those of a roller all, then both, then what
-    is left.
+def cycle_grids(finest: Grid, coarsest: Grid) -> list[Grid]:
+    """Return the grids of a cycle where cells are long, coarsest first: columns are halved first.
 
     Parameters
     ----------
     finest, coarsest : Grid
         The ends of the list.
-    stretch : float
-        a_y/a_x [-].
     """
     grids = [finest]
     while grids[0] != coarsest:
-        grid = grids[0]
-        columns, lines = grid.nx > coarsest.nx, grid.ny > coarsest.ny
-        if columns and (grid.is_closed or stretch * grid.dy > LONG_STRETCH * grid.dx):
-            lines = False
-        half = halved(grid, (int(columns), int(lines)))
+        columns = grids[0].nx > coarsest.nx
+        half = halved(grids[0], (int(columns), int(not columns)))
         assert half is not None  # the coarsest grid follows by halving
         grids.insert(0, half)
     return grids

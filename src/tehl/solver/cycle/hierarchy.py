@@ -145,7 +145,7 @@ class Hierarchy:
         if not self.is_long or len(levels) < 2:
             return levels
         known, fine = {one.grid: one for one in self.levels} | self.between, levels[-1]
-        grids = cycle_grids(fine.grid, self.levels[0].grid, self.scaled.groups.ellipticity)
+        grids = cycle_grids(fine.grid, self.levels[0].grid)
         for grid in grids:
             if grid not in known:
                 made = Level(self._equations(grid), fine.smoother.relaxation)

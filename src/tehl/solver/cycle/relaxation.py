@@ -55,16 +55,15 @@ CAREFUL = Relaxation(name="careful", threshold=1.0, point=0.5, dipole=0.35, line
 DAMPED = Relaxation(name="damped", threshold=1.0, point=0.3, dipole=0.2, lines=4, stiff=True)
 BESIDE_NEWTON = Relaxation(name="newton", threshold=1.0, point=0.5, dipole=0.35)
 GAUSS_SEIDEL = Relaxation(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
-HELD, HELD_LONG, ROLLER_STRETCH = 1.0, 0.3, 1.5
+HELD, HELD_LONG, ROLLER_STRETCH = 1.0, 0.8, 1.5
 LINE_THRESHOLD, LINE_POINT, LINE_DIPOLE = 3.0, 0.7, 0.67
 """In a line contact: conductance to neighbours that are held, over that along the line, and factors
 on the settings. The one line holds all unknowns, and its system lacks the deflection from afar: it
 must not move smooth errors, as lines between held ones do not. Least number of cycles for M = 5 to
 200, L = 0 to 11 on 513 to 2049 nodes: 0.2 to 0.5 of the residual is left by each. The second is
-that of long cells, beside which lines are held a little: with it 0.14 to 0.21 is left for a_y/a_x =
-10 to 50, M = 1000 to 4000, and 0.25 to 0.30 for rollers with M = 10 to 100. The third is the length
-of cells over their width from which on those of a roller are long: as all its lines are alike, an
-error at the end of its film is one of all."""
+that of long cells, beside which lines are held a little: with it 0.15 to 0.26 is left for a_y/a_x =
+10 to 50, M = 1000 to 4000. The third is the length of cells over their width from which on those
+of a roller are long: as all its lines are alike, an error at the end of its film is one of all."""
 
 
 def is_long(stencil: Stencil, *, touches: bool = False) -> bool:
