@@ -61,7 +61,8 @@ def test_on_a_phone_the_header_is_one_line_and_the_main_numbers_stay_in_sight(pa
     assert box["y"] > 700
     assert box["y"] + box["height"] <= 844
     slider.locator('[tabindex="0"]').focus()
-    page.keyboard.press("ArrowLeft")
+    for _ in range(5):  # one step may change less than the digits shown
+        page.keyboard.press("ArrowLeft")
     until(lambda: numbers.inner_text() != before)
 
 
