@@ -61,7 +61,7 @@ LINE_THRESHOLD, LINE_POINT, LINE_DIPOLE = 3.0, 0.7, 0.67
 on the settings. The one line holds all unknowns, and its system lacks the deflection from afar: it
 must not move smooth errors, as lines between held ones do not. Least number of cycles for M = 5 to
 200, L = 0 to 11 on 513 to 2049 nodes: 0.2 to 0.5 of the residual is left by each. The second is
-that of long cells, beside which lines are held a little: with it 0.15 to 0.26 is left for a_y/a_x =
+that of long cells, beside which lines are held a little: with it 0.24 to 0.32 is left for a_y/a_x =
 10 to 50, M = 1000 to 4000. The third is the length of cells over their width from which on those
 of a roller are long: as all its lines are alike, an error at the end of its film is one of all."""
 
