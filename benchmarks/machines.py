@@ -4,6 +4,8 @@
 gear teeth and cams, traction drives and test rigs, some heated, with asperities or short of oil,
 and solves each from the defaults within ``--limit`` seconds. ``--judge N`` solves N of those that
 converge again on a grid twice as fine, and a domain twice as large, and compares with their bars.
+``--any`` draws contacts of any direction and shape instead, and asks for an error of 2 %; a
+transient run has to end.
 """
 
 import argparse
@@ -17,13 +19,16 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks import any_contacts
 from benchmarks.coverage import bars, values
 from benchmarks.measure import attempt
 from benchmarks.table import Cell, Table
 from tehl.api.problem import ContactProblem, case_from_tables
-from tehl.api.results import Result
+from tehl.api.results import ConvergenceError, Result
+from tehl.api.solvers import solve_transient
 from tehl.base.errors import InputError
-from tehl.contact.options import Domain, Options
+from tehl.base.units import percentage
+from tehl.contact.options import USUAL_ERROR, Domain, Options
 from tehl.estimate.cpu_time import expected_seconds
 from tehl.estimate.scaling import ScaledProblem
 
@@ -50,8 +55,10 @@ RANGES = {
     "test rig": ((5, 13), (5, 13), (0.3, 1.2), (0.005, 5), (1e-3, 1.9), (0.005, 0.05)),
 }
 """Radii along and across [mm], Hertz pressure [GPa], speed [m/s], sliding, roughness Ra [um]."""
-LARGEST_JUDGE = 1025
-"""Most nodes along one direction of a grid that judges."""
+LARGEST_JUDGE, LARGEST_LINE = 1025, 8193
+"""Most nodes along one direction of a grid that judges, and of one of a line contact."""
+ANY_ERROR = 0.02
+"""Error asked for with ``--any``."""
 
 
 def contact(seed: int, number: int) -> tuple[str, set[str], ContactProblem]:
@@ -124,11 +131,12 @@ def contact(seed: int, number: int) -> tuple[str, set[str], ContactProblem]:
     return kind, features, case_from_tables(case)[0]
 
 
-def row(seed: int, number: int, limit: float, *, judge: bool) -> dict[str, Any]:
+def row(
+    drawn: tuple[str, set[str], ContactProblem], number: int, options: Options, *, judge: bool
+) -> dict[str, Any]:
     """Return how a contact ended, what it took, and how far it is from a finer grid."""
-    kind, features, problem = contact(seed, number)
-    groups = ScaledProblem.of(problem).groups
-    started, options = time.process_time(), Options(max_time=limit)
+    kind, features, problem = drawn
+    groups, started = ScaledProblem.of(problem).groups, time.process_time()
     found: dict[str, Any] = {
         "number": number,
         "kind": kind,
@@ -138,6 +146,8 @@ def row(seed: int, number: int, limit: float, *, judge: bool) -> dict[str, Any]:
         "ellipticity": groups.ellipticity,
     }
     try:
+        if problem.transient is not None:
+            return found | _in_time(problem, options)
         result = attempt(problem, options)
     except InputError as error:
         return found | {"cause": "input", "message": str(error), "seconds": 0.0}
@@ -145,6 +155,7 @@ def row(seed: int, number: int, limit: float, *, judge: bool) -> dict[str, Any]:
     found |= {
         "cause": None if status.converged else status.cause or status.kind,
         "message": status.message,
+        "hint": status.hint and str(status.hint),
         "seconds": time.process_time() - started,
         "points": result.scaled.x.size,
         "error": None if errors is None else max(errors.central, errors.minimum),
@@ -156,18 +167,39 @@ def row(seed: int, number: int, limit: float, *, judge: bool) -> dict[str, Any]:
     return found
 
 
+def _in_time(problem: ContactProblem, options: Options) -> dict[str, Any]:
+    """Return how a transient run ended, and what it took."""
+    started = time.process_time()
+    try:
+        run = solve_transient(problem, options)
+    except ConvergenceError as error:
+        status = error.result.status
+    else:
+        status = run.status
+    return {
+        "cause": None if status.converged else status.cause or status.kind,
+        "message": status.message,
+        "hint": status.hint and str(status.hint),
+        "seconds": time.process_time() - started,
+    }
+
+
 def _off(result: Result) -> dict[str, float]:
     """Return the differences to finer grids and larger domains over the bars, the largest each."""
     off: dict[str, float] = {}
+    lines, sides = result.scaled.y.size, result.problem.shape.sides
     for wider in (1, 2):
         finer = 2 * wider * (result.scaled.x.size - 1) + 1
-        if finer > LARGEST_JUDGE:
+        if finer > (LARGEST_LINE if lines == 1 else LARGEST_JUDGE):
             continue
         x, y = (
             (wider * float(axis[0]), wider * float(axis[-1]))
             for axis in (result.scaled.x, result.scaled.y)
         )
-        options = Options(points=finer, extrapolate=True, domain=Domain(x=x, y=y))
+        points: int | tuple[int, int] = finer
+        if result.problem.contact.has_lines:
+            points, y = (finer, max(2 * lines - 1, 1)), sides
+        options = Options(points=points, extrapolate=True, domain=Domain(x=x, y=y))
         if result.problem.supply is None:
             options = options.model_copy(update={"edges": "far_field"})
         judge = attempt(result.problem, options)
@@ -181,29 +213,39 @@ def _off(result: Result) -> dict[str, float]:
     return off
 
 
-def reached(rows: list[dict[str, Any]]) -> Table:
-    """Return how many contacts of each kind and with each feature reached the default error."""
+def reached(rows: list[dict[str, Any]], error: float = USUAL_ERROR) -> Table:
+    """Return how many contacts of each kind and with each feature reached an error.
+
+    Parameters
+    ----------
+    rows : list of dict
+        Of `row`.
+    error : float
+        That they were asked for [-].
+    """
     made = Table(
-        title=f"Contacts of machines that reach 1 % ({len(rows)} random contacts)",
+        title=f"Contacts that reach {percentage(error)} ({len(rows)} random contacts)",
         columns=("contacts", "reached", "CPU s, median", "95 %", "largest", "forecast / actual"),
     )
     groups = {"all": rows}
-    groups |= {kind: [one for one in rows if one["kind"] == kind] for kind in KINDS}
-    groups |= {
-        name: [one for one in rows if name in one["features"]] for name in ("plain", *FEATURES)
-    }
+    for one in rows:
+        for name in (one["kind"], *one["features"]):
+            groups.setdefault(name, []).append(one)
     for name, some in groups.items():
-        if not some:
-            continue
         good = [one for one in some if one["cause"] is None]
         seconds = np.array([one["seconds"] for one in good] or [math.nan])
-        ratios = np.array([one["forecast"] / one["seconds"] for one in good] or [math.nan])
+        ratios = np.array([one["forecast"] / one["seconds"] for one in good if "forecast" in one])
         cells: list[Cell] = [name, f"{len(good)} of {len(some)}"]
         cells += [float(np.median(seconds)), float(np.quantile(seconds, 0.95))]
-        made.rows.append((*cells, float(seconds.max()), float(np.median(ratios))))
+        made.rows.append(
+            (*cells, float(seconds.max()), float(np.median(ratios)) if ratios.size else "")
+        )
     peaks = [one["peak_gb"] for one in rows if "peak_gb" in one]
     made.notes.append(f"peak memory of the process {max(peaks, default=0.0):.2g} GB")
-    made.notes.extend(_failure(one) for one in rows if one["cause"] is not None)
+    failed = [one for one in rows if one["cause"] is not None]
+    silent = sum(not one.get("hint") and one["cause"] != "input" for one in failed)
+    made.notes.append(f"{len(failed)} failed, {silent} of them without a hint")
+    made.notes.extend(map(_failure, failed))
     return made
 
 
@@ -239,16 +281,19 @@ def main() -> None:
     parser.add_argument("--limit", type=float, default=60.0, help="seconds of a contact")
     parser.add_argument("--judge", type=int, default=0, help="contacts to judge")
     parser.add_argument("--json", type=Path, help="file for the rows")
+    parser.add_argument("--any", action="store_true", help="of any direction and shape")
+    parser.add_argument("--first", type=int, default=0, help="number of the first contact")
     asked = parser.parse_args()
-    rows = [
-        row(asked.seed, number, asked.limit, judge=number < asked.judge)
-        for number in range(asked.contacts)
-    ]
-    for table in (reached(rows), judged(rows)):
+    draw, error = (any_contacts.contact, ANY_ERROR) if asked.any else (contact, None)
+    options, rows = Options(error=error, max_time=asked.limit), []
+    for number in range(asked.first, asked.first + asked.contacts):
+        judge = number - asked.first < asked.judge
+        rows.append(row(draw(asked.seed, number), number, options, judge=judge))
+        if asked.json is not None:
+            asked.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
+    for table in (reached(rows, error or USUAL_ERROR), judged(rows)):
         if table.rows:
             sys.stdout.write(table.text() + "\n")
-    if asked.json is not None:
-        asked.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -42,7 +42,7 @@ def contact(seed: int, number: int) -> tuple[ContactProblem, str]:
         if heated and not CREDIBLE[0] <= problem.entrainment_speed <= CREDIBLE[1]:
             continue
         if rng.random() < ROUGH:
-            tables["surface_2"]["roughness"] = _roughness(rng, problem)
+            tables["surface_2"]["roughness"] = heights(rng, problem)
             return ContactProblem.model_validate(tables), "rough"
         thinning = tables["lubricant"]["shear"]["law"] != "newtonian"
         return problem, "heated" if heated else "thinning" if thinning else "isothermal"
@@ -65,14 +65,15 @@ def _tables(rng: np.random.Generator) -> dict[str, Any]:
         },
         "surface_1": {"material": first},
         "surface_2": {"material": second},
-        "lubricant": _oil(rng),
+        "lubricant": oil(rng),
     }
     if rng.random() < HEATED:
         tables["thermal"] = {}
     return tables
 
 
-def _oil(rng: np.random.Generator) -> dict[str, Any]:
+def oil(rng: np.random.Generator) -> dict[str, Any]:
+    """Return a random lubricant as its table."""
     eta, gamma = between(rng, (0.004, 0.5)), float(rng.uniform(0.025, 0.06))
     alpha, shear = float(rng.uniform(12e-9, 25e-9)), float(rng.random())
     at = {"eta_0": eta, "alpha": alpha, "gamma": gamma, "reference_temperature": 313.15}
@@ -104,7 +105,16 @@ def _oil(rng: np.random.Generator) -> dict[str, Any]:
     }
 
 
-def _roughness(rng: np.random.Generator, problem: ContactProblem) -> dict[str, Any]:
+def heights(rng: np.random.Generator, problem: ContactProblem) -> dict[str, Any]:
+    """Return random roughness as its table.
+
+    Parameters
+    ----------
+    rng : Generator
+        Source of the random numbers.
+    problem : ContactProblem
+        Its expected film and half-width limit the heights.
+    """
     scaled = ScaledProblem.of(problem)
     width = scaled.scales.half_width_x
     film = expected_central_film(scaled.groups) * scaled.scales.film_thickness

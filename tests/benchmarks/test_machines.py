@@ -4,6 +4,8 @@ import pytest
 from benchmarks.machines import KINDS, contact, judged, reached, row
 
 import tehl
+from benchmarks import any_contacts
+from tehl.contact.options import Options
 
 
 def test_every_contact_is_a_valid_case_and_the_same_each_time():
@@ -17,7 +19,8 @@ def test_every_contact_is_a_valid_case_and_the_same_each_time():
 
 
 def test_contacts_count_by_kind_and_feature_and_failures_are_named():
-    rows = [row(3, number, 20.0, judge=number == 0) for number in range(3)]
+    options = Options(max_time=20.0)
+    rows = [row(contact(3, number), number, options, judge=number == 0) for number in range(3)]
     bad = {"number": 9, "kind": "cam", "features": ["plain"], "M": 1e4, "L": 9.0}
     bad |= {"ellipticity": 4.0, "cause": "stalled", "seconds": 3.0, "error": 0.2}
     table = reached([*rows, bad])
@@ -27,6 +30,18 @@ def test_contacts_count_by_kind_and_feature_and_failures_are_named():
     assert any("contact 9 (cam, plain; M = 10000" in note for note in table.notes)
     known = [{"off": {"film_central": 0.4}}, {"off": {"film_central": 1.5}}, {}]
     assert judged(known).rows == [("film_central", 2, 50.0, 100.0, 0.95, 1.5)]
+
+
+def test_contacts_of_any_shape_and_motion_are_valid_and_the_same_each_time():
+    seen = set()
+    for number in range(40):
+        kind, features, problem = any_contacts.contact(3, number)
+        assert any_contacts.contact(3, number) == (kind, features, problem)
+        assert (problem.contact.type == kind) == problem.contact.has_lines
+        assert (problem.transient is not None) == ("transient" in features)
+        assert ("spin" in features) == (problem.contact.spin_1 != 0.0)
+        seen |= {kind, *features}
+    assert seen == {*any_contacts.SHAPES, *any_contacts.FEATURES, "across", "spin"}
 
 
 def test_a_starved_cam_whose_flux_errs_at_the_spike_reaches_its_error():

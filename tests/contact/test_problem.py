@@ -305,6 +305,46 @@ def test_a_line_contact_has_one_radius_of_the_bodies_or_reduced():
             ContactProblem.model_validate(ball_tables(contact=reduced | radii))
 
 
+def test_velocities_state_entrainment_and_sliding_by_size_and_direction():
+    ellipse = {"radius_x": 0.01, "radius_y": 0.02, "load": 80.0}
+    both = {"velocity_1": ["3 m/s", "1 m/s"], "velocity_2": [2.0, 3.0]}
+    found = problem(contact=ellipse | both)
+    angle, size = found.contact.entrainment_angle, math.hypot(2.5, 2.0)
+    assert (found.entrainment_speed, angle) == pytest.approx((size, math.atan2(2.0, 2.5)))
+    for surface, stated in ((1, (3.0, 1.0)), (2, (2.0, 3.0))):
+        u, v = found.motion.velocity_of(surface)
+        turned = (
+            u * math.cos(angle) - v * math.sin(angle),
+            u * math.sin(angle) + v * math.cos(angle),
+        )
+        assert turned == pytest.approx(stated)
+    assert ContactProblem.model_validate(found.model_dump()) == found
+    along = problem(contact=ellipse | {"velocity_1": [1.0, 2.0], "velocity_2": [3.0, 6.0]})
+    assert along.slide_roll_ratio == pytest.approx(-1.0)
+    assert along.motion.is_plain
+
+
+@pytest.mark.parametrize(
+    ("stated", "why"),
+    [
+        ({"velocity_2": None}, "velocity_1 alone"),
+        ({"slide_roll_ratio": 0.1}, "leave out slide_roll_ratio"),
+        ({"sliding_angle": 0.1}, "leave out sliding_angle"),
+        ({"moes_speed": 3.0}, "leave out moes_speed"),
+        ({"velocity_1": [-2.0, 0.0]}, "drags no oil in"),
+        ({"velocity_1": ["2 mm", 0.0]}, "a speed such as"),
+        (
+            {"type": "line", "load": None, "hertz_pressure": 1e9, "velocity_1": [2, 1]},
+            "at an angle",
+        ),
+    ],
+)
+def test_velocities_that_are_stated_twice_or_make_no_entrainment_are_refused(stated, why):
+    contact = {"radius": 0.01, "load": 80.0, "velocity_1": [3.0, 0.0], "velocity_2": [2.0, 0.0]}
+    with pytest.raises(ValidationError, match=why):
+        problem(contact=contact | stated)
+
+
 @pytest.mark.parametrize(
     ("motion", "tables", "why"),
     [

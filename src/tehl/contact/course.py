@@ -23,6 +23,7 @@ from tehl.base.units import (
     quantity,
 )
 from tehl.contact.columns import read_columns
+from tehl.contact.velocities import SIGNED_SPEED
 from tehl.roughness.expression import NUMBERS_IN_TIME, read_formula
 
 LARGEST_FACTOR = 10.0
@@ -155,7 +156,6 @@ def _table_of_file(path: Path, unit: Quantity) -> list[tuple[float, float | str]
     return [(time * second, f"{value:.15g} {units[1]}") for time, value in pairs]
 
 
-SIGNED_SPEED = Quantity("a speed", "m/s", '"1.5 m/s"', "any")
 LoadCourse = Annotated[Stated, _reader(quantity(ForcePerLength), quantity(Force))]
 SpeedCourse = Annotated[Stated, _reader(SIGNED_SPEED, signed=True)]
 RatioCourse = Annotated[Stated, _reader(quantity(Number), signed=True)]

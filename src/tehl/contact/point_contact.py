@@ -36,6 +36,7 @@ from tehl.contact.stress import Stress
 from tehl.contact.summits import Asperities
 from tehl.contact.supply import Cavitation, Supply
 from tehl.contact.transient import Transient
+from tehl.contact.velocities import Velocity, with_motion
 from tehl.lubricant import NamedLubricant
 from tehl.roughness import AnyRoughness, Smooth
 from tehl.roughness.model import with_rms
@@ -206,10 +207,19 @@ class Contact(_WithRadii):
     """(u_1 - u_2) / u_m [-]."""
     sliding_angle: Direction = 0.0
     """Direction of u_1 - u_2 from that of the entrainment, counter-clockwise [rad]."""
+    velocity_1: Velocity | None = None
+    velocity_2: Velocity | None = None
+    """Velocities of both surfaces at the centre along the axes of radius_x and radius_y [m/s], in
+    place of entrainment speed and angle, slide-roll ratio and sliding angle."""
     spin_1: AngularVelocity = 0.0
     spin_2: AngularVelocity = 0.0
     """Angular velocities of the surfaces about z, counter-clockwise [rad/s]; speeds are those at
     the centre."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _convert_velocities(cls, stated: Any) -> Any:
+        return with_motion(stated)
 
     @model_validator(mode="after")
     def _must_be_stated_once(self) -> Self:
@@ -220,8 +230,9 @@ class Contact(_WithRadii):
             raise ValueError(f"states radius_x and radius_y: a {self.type} contact takes radius")
         self._check_roller()
         if self.has_lines and self.entrainment_angle != 0.0:
+            key = "entrainment_angle" if self.velocity_1 is None else "velocities at an angle to x"
             raise ValueError(
-                "states entrainment_angle: along a line contact nothing changes, so only the speed "
+                f"states {key}: along a line contact nothing changes, so only the speed "
                 "across it makes a film; state that alone"
             )
         self._exactly_one(own, "hertz_pressure", "moes_load")
