@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from tehl.base.errors import FileFormatError, InputError, TehlError
     from tehl.contact.materials import Solid, material
     from tehl.contact.options import Domain, Options
-    from tehl.contact.point_contact import Contact, Surface
+    from tehl.contact.tables import Contact, Surface
     from tehl.estimate.stiffness import film_stiffness
     from tehl.lubricant import Lubricant, oil
     from tehl.studies import solve_contacts, study

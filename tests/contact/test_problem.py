@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from tehl.api.problem import ContactProblem
 from tehl.base.errors import InputError
 from tehl.contact.heat import FilmEnergy, source_form
-from tehl.contact.problem import Surface
+from tehl.contact.tables import Surface
 from tehl.estimate.scaling import groups
 from tehl.lubricant import Barus
 from tests.cases import ball_tables, moes_problem

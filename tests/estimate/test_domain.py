@@ -11,11 +11,11 @@ from tehl.estimate.domain import (
     LARGEST_DOMAIN_FACTOR,
     SLENDER,
     chosen_domain,
-    expected_points,
     far_field_error,
     recommended_domain,
 )
 from tehl.estimate.entering import entry_error
+from tehl.estimate.nodes import expected_points
 from tehl.estimate.scaling import ScaledProblem, groups
 from tehl.solver.physics.bodies import solve
 from tests.reference import heated_contact, moes_contact

@@ -13,7 +13,7 @@ from tehl.api.results import ConvergenceError
 from tehl.api.solvers import solve
 from tehl.base.errors import InputError
 from tehl.contact.options import Options
-from tehl.estimate.domain import planned
+from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.result.solution import Status
 from tehl.solver import steady

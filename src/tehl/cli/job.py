@@ -20,8 +20,8 @@ from tehl.cli.text import as_text, failure_text
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.stress import Stress
-from tehl.estimate.domain import planned
 from tehl.estimate.memory import check_memory
+from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.io.checkpoint import checkpoint_of, fingerprint
 from tehl.io.store import save

@@ -16,20 +16,24 @@ from tehl.base.units import (
     Quantity,
     SolidConductivity,
     SolidDensity,
-    SolidExpansion,
     SolidHeatCapacity,
     quantity,
 )
-from tehl.contact.bodies import direction, reduced_radius
+from tehl.contact.bodies import reduced_radius
 from tehl.contact.boundary_contact import THICKEST_BOUNDARY_FILM, THINNEST_BOUNDARY_FILM
-from tehl.contact.heat import LEAST_LINE
-from tehl.contact.point_contact import Contact, PointContact, Surface
-from tehl.contact.roller import Roller
+from tehl.contact.exclusions import (
+    check_dynamics,
+    check_line,
+    check_motion,
+    check_roller,
+    check_spin,
+    check_stress,
+    check_turning,
+)
+from tehl.contact.point_contact import PointContact
 from tehl.contact.summits import GreenwoodTripp
 from tehl.contact.transient import COURSES, MOTION
 from tehl.lubricant.registered import package_of
-
-__all__ = ["Contact", "ContactProblem", "Surface"]
 
 SURFACES = ("surface_1", "surface_2")
 THERMAL_PROPERTIES = {
@@ -37,18 +41,10 @@ THERMAL_PROPERTIES = {
     "heat_capacity": quantity(SolidHeatCapacity),
     "conductivity": quantity(SolidConductivity),
 }
+
+
 COLDEST_TEMPERATURE, HOTTEST_TEMPERATURE = 200.0, 800.0
 """Limits of the temperature of an oil or a solid [K]."""
-SOLID_PART = (
-    "solid contact adds a stiffness and a hysteresis of its own, and only those of the oil are "
-    "computed"
-)
-"""Why stiffness and damping are not computed where surfaces touch."""
-LARGEST_TURN = 0.8
-"""Largest spin of a heated surface times a_y over its speed: beyond it rows of the contact have too
-little speed along x for their heat to be followed from station to station."""
-LEAST_LENGTH = 3.0
-"""Least length of a roller over the width of its contact."""
 LARGEST_RATIO = 1e3
 """Largest ratio of the reduced radii, either way: beyond it the contact is a line contact."""
 
@@ -263,81 +259,6 @@ def check_transient(problem: PointContact) -> None:
         )
 
 
-def check_motion(problem: PointContact) -> None:
-    """Check that sliding across the entrainment, and spin, go with the rest of the problem."""
-    contact = problem.contact
-    turned = [name for name in ("spin_1", "spin_2") if getattr(contact, name) != 0.0]
-    turned += ["sliding_angle"] if direction(contact.sliding_angle)[1] != 0.0 else []
-    if not turned:
-        return
-    supply, law = problem.supply, problem.asperities
-    one_is_rougher = problem.surface_1.rms_roughness != problem.surface_2.rms_roughness
-    excluded = {
-        "transient": (problem.transient is not None, "heights move along x alone"),
-        "supply.passes": (
-            supply is not None and supply.passes is not None,
-            "both surfaces return along x alone",
-        ),
-        "dynamics": (
-            problem.dynamics is not None and problem.is_coupled,
-            "what sliding carries along y is not linearised for heat and shear thinning",
-        ),
-        "asperities": (
-            law is not None and one_is_rougher and getattr(law, "rms", None) is None,
-            "the rougher surface carries oil along x alone; state asperities.rms of both together",
-        ),
-        f'contact.type = "{contact.type}"': (
-            contact.has_lines and turned != ["sliding_angle"],
-            "with spin the speed changes along a line",
-        ),
-    }
-    for name, (is_stated, why) in excluded.items():
-        if is_stated:
-            raise ValueError(f"contact.{turned[0]} and {name} exclude each other: {why}")
-
-
-def check_turning(problem: PointContact) -> None:
-    """Check that surfaces that spin have a speed along x, by which their heat is followed."""
-    width, motion = problem.hertz.half_width_y, problem.motion
-    for number, spin, peclet in zip(
-        (1, 2), (motion.spin_1, motion.spin_2), problem.solid_peclet, strict=True
-    ):
-        if problem.thermal is None or spin == 0.0:
-            continue
-        speed = motion.speed_of(number)
-        most = max(LARGEST_TURN * speed / width, 0.0)
-        if peclet is not None and peclet < LEAST_LINE:
-            most = 0.0
-        if abs(spin) > most:
-            raise ValueError(
-                f"contact.spin_{number} = {spin:g} rad/s is too fast for [thermal]: at {speed:g} "
-                f"m/s along the entrainment the heat of this surface is computed up to {most:.3g} "
-                f"rad/s, {LARGEST_TURN:g} u/a_y, and from a Peclet number of {LEAST_LINE:g} on"
-            )
-
-
-def check_spin(problem: PointContact) -> None:
-    """Check that nothing follows oil or heat along x alone where the mean motion spins."""
-    if problem.contact.spin_1 + problem.contact.spin_2 == 0.0:
-        return
-    excluded = {
-        f'contact.type = "{problem.contact.type}"': (
-            problem.contact.has_lines,
-            "the speed changes along a line",
-        ),
-        "transient": (problem.transient is not None, "heights and films move along x alone"),
-        "contact_film": (problem.contact_film is not None, "oil is conserved along x alone"),
-        "supply": (problem.conserves_oil, "oil in cavities is conserved along x alone"),
-        "dynamics": (problem.dynamics is not None, "moving films are linearised along x alone"),
-    }
-    for name, (is_stated, why) in excluded.items():
-        if is_stated:
-            raise ValueError(
-                f"contact.spin_1, spin_2 and {name} exclude each other if the spins are not "
-                f"opposite: {why}"
-            )
-
-
 def check_supply(problem: PointContact) -> None:
     """Check that the oil of a starved contact is conserved, and passes have steady films."""
     supply, cavitation = problem.supply, problem.cavitation
@@ -376,82 +297,6 @@ def check_contact_film(problem: PointContact) -> None:
         raise ValueError(
             f"contact_film.thickness = {film.thickness:g} m is not a boundary film: it must be "
             f'between {THINNEST_BOUNDARY_FILM:g} and {THICKEST_BOUNDARY_FILM:g} m, such as "5 nm"'
-        )
-
-
-def check_line(problem: PointContact) -> None:
-    """Check that a line contact states nothing that lines do not have."""
-    if not problem.contact.is_line:
-        return
-    supply, thermal = problem.supply, problem.thermal
-    resting = thermal is not None and any(problem.motion.speed_of(one) == 0.0 for one in (1, 2))
-    excluded = {
-        "supply": (
-            supply is not None and (supply.profile is not None or supply.track is not None),
-            "no oil flows aside, so profile, track and passes have no effect; state layer or ratio",
-        ),
-        "thermal": (resting, "a surface at rest has no steady temperature under a line of heat"),
-        "cooling": (
-            problem.computes_bodies,
-            "its track has no width; state the temperature of the body",
-        ),
-    }
-    for name, (is_stated, why) in excluded.items():
-        if is_stated:
-            raise ValueError(f'contact.type = "line" and {name} exclude each other: {why}')
-
-
-def check_stress(problem: PointContact) -> None:
-    """Check that the heat of a thermal stress is computed, and that the bodies expand by it."""
-    stress = problem.stress
-    if stress is None or not stress.thermal:
-        return
-    if problem.thermal is None:
-        raise ValueError("stress.thermal = true needs the heat of the film: add [thermal]")
-    for body in stress.bodies:
-        if (problem.surface_1, problem.surface_2)[body - 1].material.expansion is None:
-            raise ValueError(
-                f"surface_{body}.material.expansion is missing, which stress.thermal needs: give "
-                f"{quantity(SolidExpansion).name} such as {quantity(SolidExpansion).example}"
-            )
-
-
-def check_roller(problem: PointContact) -> None:
-    """Check that a roller is longer than its contact is wide."""
-    shape = problem.shape
-    if not isinstance(shape, Roller):
-        return
-    if problem.dynamics is not None:
-        raise ValueError(
-            'contact.type = "roller" and dynamics exclude each other: the response of the oil '
-            "upstream of a roller is not known"
-        )
-    width = 2.0 * problem.hertz.half_width_x
-    if not shape.length >= LEAST_LENGTH * width:
-        raise ValueError(
-            f"contact.length = {1e3 * shape.length:.4g} mm: less than {LEAST_LENGTH:g} times the "
-            f"width of the contact, {1e3 * width:.4g} mm; rollers are longer, check length and load"
-        )
-
-
-def check_dynamics(problem: PointContact) -> None:
-    """Check that the film has one steady state, which oil alone carries."""
-    excluded = {
-        "transient": (problem.transient is not None, "a transient run has no steady state"),
-        "supply.passes": (problem.has_passes, "each pass has another film"),
-        "asperities": (problem.asperities is not None, SOLID_PART),
-        "contact_film": (problem.contact_film is not None, SOLID_PART),
-    }
-    for name, (is_stated, why) in excluded.items():
-        if problem.dynamics is not None and is_stated:
-            raise ValueError(f"dynamics and {name} exclude each other: {why}; leave out one")
-    held = None if problem.dynamics is None else problem.dynamics.held_at
-    if held is not None and not problem.contact.is_line:
-        raise ValueError("dynamics.held_at is only for line contacts; leave it out")
-    if held is not None and not held > problem.hertz.half_width_x:
-        raise ValueError(
-            f"dynamics.held_at = {held:g} m: must be outside the contact, whose half-width is "
-            f"{problem.hertz.half_width_x:.3g} m"
         )
 
 

@@ -2,9 +2,10 @@
 
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
-from tehl.estimate.domain import domain_of, planned
+from tehl.estimate.domain import domain_of
 from tehl.estimate.duration import components
 from tehl.estimate.grid import Grid, can_mirror, halved_grids
+from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.roughness.model import TileModel
 

@@ -58,8 +58,8 @@ def kept_part(scaled: ScaledProblem, inlet: float, y: Array) -> Array:
 def entry_error(scaled: ScaledProblem, domain: Domain) -> float:
     """Estimate the relative error of the film by what warms or cools oil upstream of the domain.
 
-    Bodies of another temperature do, and in line contacts the heat of the inlet. Measured on wider
-    domains for M = 3, 100 and 500 with bodies 20 to 25 K off: 13, 1.0 and 0.7 %.
+    Bodies of another temperature do, and in lines and rollers the heat of the inlet. Measured on
+    wider domains for M = 3, 100 and 500 with bodies 20 to 25 K off: 13, 1.0 and 0.7 %.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def entry_error(scaled: ScaledProblem, domain: Domain) -> float:
         The distance of the inlet edge decides, in Hertz half-widths.
     """
     contrast = abs(math.log(scaled.entering.lambda_bar / scaled.groups.lambda_bar))
-    heated = _reverse_flow_error(scaled, domain) if scaled.problem.contact.is_line else 0.0
+    heated = _reverse_flow_error(scaled, domain) if scaled.groups.shape.as_line else 0.0
     if not contrast:
         return heated
     inlet = -domain.x[0]

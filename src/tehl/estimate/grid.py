@@ -132,17 +132,17 @@ def halved_grids(finest: Grid) -> list[Grid]:
 
 
 def coarsest_of(finest: Grid, widest: float) -> Grid:
-    """Return the coarsest grid of one with long cells.
+    """Return the coarsest grid of one with long cells: another one than that of the result.
 
     Parameters
     ----------
     finest : Grid
         The grid of the result.
     widest : float
-        Largest mesh width along x [half-widths].
+        Largest mesh width along x [half-widths], unless no grid is coarser.
     """
     grid = finest
-    while (half := halved(grid, (1, 0))) and half.dx <= widest:
+    while (half := halved(grid, (1, 0))) and (half.dx <= widest or grid is finest):
         grid = half
     while (half := halved(grid, (0, 1))) and half.shape[0] > LEAST_INTERVALS:
         grid = half
@@ -166,38 +166,24 @@ def halved(grid: Grid, axes: tuple[int, int]) -> Grid | None:
     return replace(grid, nx=nx + 1, ny=ny + 1)
 
 
-def cycle_grids(finest: Grid, coarsest: Grid) -> list[Grid]:
-    """Return the grids of a cycle where cells are long, coarsest first: columns are halved first.
+def long_grids(finest: Grid, coarsest: Grid, *, by_columns: bool) -> list[Grid]:
+    """Return the grids where cells are long, coarsest first.
+
+    The last ones of full multigrid differ by halving both columns and lines, so that they show the
+    order of the errors; before them comes what is left of one of both. A cycle halves columns
+    first.
 
     Parameters
     ----------
     finest, coarsest : Grid
         The ends of the list.
+    by_columns : bool
+        Whether it is for a cycle.
     """
     grids = [finest]
     while grids[0] != coarsest:
-        columns = grids[0].nx > coarsest.nx
-        half = halved(grids[0], (int(columns), int(not columns)))
+        columns, lines = (a > b for a, b in zip(grids[0].points, coarsest.points, strict=True))
+        half = halved(grids[0], (int(columns), int(lines and not (by_columns and columns))))
         assert half is not None  # the coarsest grid follows by halving
-        grids.insert(0, half)
-    return grids
-
-
-def ladder_of(finest: Grid, coarsest: Grid) -> list[Grid]:
-    """Return the grids of full multigrid where cells are long, coarsest first.
-
-    The last ones differ by halving both columns and lines, so that they show the order of the
-    errors; before them comes what is left of one of both.
-
-    Parameters
-    ----------
-    finest, coarsest : Grid
-        The ends of the list.
-    """
-    grids = [finest]
-    while grids[0] != coarsest:
-        grid = grids[0]
-        half = halved(grid, (int(grid.nx > coarsest.nx), int(grid.ny > coarsest.ny)))
-        assert half is not None
         grids.insert(0, half)
     return grids

@@ -20,7 +20,7 @@ from tehl.base.wording import short, shown
 from tehl.contact.materials import SOLIDS
 from tehl.contact.options import NUMERICS, Options
 from tehl.contact.problem import ContactProblem
-from tehl.estimate.domain import settled
+from tehl.estimate.settled import settled
 from tehl.lubricant.fluid import OILS
 from tehl.roughness import Map, Sum
 

@@ -13,8 +13,9 @@ import numpy as np
 
 from tehl.base.typing import Array, BoolArray, IntArray, SingleArray
 from tehl.contact.boundary_contact import TOUCHING_MARGIN, ContactFilm
-from tehl.estimate.domain import domain_of, expected_bar
+from tehl.estimate.domain import domain_of
 from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.nodes import expected_bar
 from tehl.estimate.scaling import ScaledProblem
 from tehl.post.traction import cell_widths, rubbing_motion, traction
 from tehl.result import registry

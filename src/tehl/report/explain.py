@@ -11,7 +11,7 @@ from tehl.contact.heat import FilmEnergy, source_form
 from tehl.contact.options import Domain, Options
 from tehl.contact.problem import HOTTEST_TEMPERATURE, ContactProblem
 from tehl.estimate.cpu_time import expected_seconds, seconds_range
-from tehl.estimate.domain import chosen_domain, domain_of, error_of_domain, planned
+from tehl.estimate.domain import chosen_domain, domain_of, error_of_domain
 from tehl.estimate.film_formulas import (
     FilmEstimate,
     Lubrication,
@@ -24,6 +24,7 @@ from tehl.estimate.film_formulas import (
 from tehl.estimate.grid import Grid
 from tehl.estimate.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
 from tehl.estimate.memory import available_memory, needed_memory
+from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import check_supply, starved_degree, supply_ratio
 from tehl.estimate.summits import SharedLoad, shared_load

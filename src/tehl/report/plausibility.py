@@ -6,17 +6,12 @@ from typing import Any, NamedTuple
 from tehl.base.units import percentage
 from tehl.contact.heat import FAR_BODY, LAYERS
 from tehl.contact.options import Domain, Options
-from tehl.contact.problem import ContactProblem, Surface
+from tehl.contact.problem import ContactProblem
 from tehl.contact.summits import GreenwoodTripp
-from tehl.estimate.domain import (
-    chosen_domain,
-    domain_error,
-    domain_of,
-    error_of_domain,
-    expected_bar,
-    planned,
-)
+from tehl.contact.tables import Surface
+from tehl.estimate.domain import chosen_domain, domain_error, domain_of, error_of_domain
 from tehl.estimate.film_formulas import likely_film
+from tehl.estimate.nodes import expected_bar, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat

@@ -14,10 +14,12 @@ from tehl.base.units import percentage
 from tehl.base.wording import grid_size
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
-from tehl.estimate.domain import domain_of, planned, settled
+from tehl.estimate.domain import domain_of
 from tehl.estimate.grid import Grid, can_mirror
 from tehl.estimate.memory import check_memory
+from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.settled import settled
 from tehl.estimate.starvation import Flooded, check_supply
 from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import heights_of, units_of

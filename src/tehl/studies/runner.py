@@ -13,8 +13,8 @@ from tehl.base.errors import InputError
 from tehl.base.lazy import lazy
 from tehl.contact.options import Options
 from tehl.estimate.cpu_time import expected_seconds
-from tehl.estimate.domain import planned
 from tehl.estimate.memory import available_memory, needed_memory
+from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels.cache import is_cold
 from tehl.studies.case import Case, Row, retried

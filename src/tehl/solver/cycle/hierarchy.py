@@ -13,9 +13,8 @@ from tehl.estimate.grid import (
     LONG_STRETCH,
     Grid,
     coarsest_of,
-    cycle_grids,
     halved_grids,
-    ladder_of,
+    long_grids,
 )
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.summits import shared_load
@@ -145,7 +144,7 @@ class Hierarchy:
         if not self.is_long or len(levels) < 2:
             return levels
         known, fine = {one.grid: one for one in self.levels} | self.between, levels[-1]
-        grids = cycle_grids(fine.grid, self.levels[0].grid)
+        grids = long_grids(fine.grid, self.levels[0].grid, by_columns=True)
         for grid in grids:
             if grid not in known:
                 made = Level(self._equations(grid), fine.smoother.relaxation)
@@ -182,7 +181,7 @@ class Hierarchy:
         touches = scaled.problem.asperities is not None
         is_long = has_long_cells(finest, scaled.groups, touches=touches)
         if is_long:
-            grids = ladder_of(finest, coarsest_of(finest, widest))
+            grids = long_grids(finest, coarsest_of(finest, widest), by_columns=False)
         else:
             grids = halved_grids(finest)
             while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= dense:

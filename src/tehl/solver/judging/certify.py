@@ -5,9 +5,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Generic, NoReturn, TypeVar
 
-from tehl.contact.options import LINE_WIDTH, Domain, Options, can_be_halved, check_certifiable
+from tehl.contact.options import Domain, Options, can_be_halved, check_certifiable
 from tehl.contact.problem import ContactProblem
-from tehl.estimate.domain import settled
+from tehl.estimate.settled import settled
 from tehl.operators.heights import UnresolvedError
 from tehl.post.following import Following
 from tehl.result import registry
@@ -75,7 +75,7 @@ def certify(
         When the grid cannot be halved twice.
     """
     options, known = options or Options(), None
-    if problem.contact.is_line:
+    if problem.contact.has_lines:
         options = settled(problem, options)
     if options.points == "auto":
         monitor.message("certify: number of nodes")
@@ -269,7 +269,8 @@ def widened(options: Options, finest: Solution) -> Options:
         for edges in (finest.scaled.x, finest.scaled.y)
     )
     edges = "far_field" if options.has_far_field else "zero"
-    y = LINE_WIDTH if finest.problem.contact.is_line else y
+    shape = finest.problem.shape
+    y = shape.sides if shape.as_line else y
     return options.model_copy(update={"domain": Domain(x=x, y=y), "edges": edges})
 
 

@@ -9,9 +9,10 @@ from tehl.base.wording import grid_size
 from tehl.contact.heat import FAR_BODY, FilmEnergy
 from tehl.contact.options import LARGEST_ERROR, USUAL_PLAIN_ERROR
 from tehl.contact.problem import ContactProblem
-from tehl.estimate.domain import chosen_domain, expected_points, film_to_resolve
+from tehl.estimate.domain import chosen_domain
 from tehl.estimate.film_formulas import expected_film
 from tehl.estimate.grid import Grid
+from tehl.estimate.nodes import expected_points, film_to_resolve
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.summits import shared_load
 from tehl.result.solution import Hint, Settings, Status

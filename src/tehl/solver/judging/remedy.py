@@ -11,7 +11,7 @@ from tehl.base.units import percentage
 from tehl.base.wording import grid_size
 from tehl.contact.options import Domain, Options
 from tehl.contact.problem import ContactProblem
-from tehl.estimate.domain import FAMILIES, planned
+from tehl.estimate.nodes import FAMILIES, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.result.solution import Hint, Settings, Solution, settings_text
 from tehl.solver.judging.diagnosis import error_setting

@@ -14,7 +14,7 @@ from tehl.base.typing import Array
 from tehl.contact.moment import slides_ever
 from tehl.contact.options import Options, can_be_halved, check_certifiable
 from tehl.contact.problem import ContactProblem
-from tehl.estimate.domain import settled
+from tehl.estimate.settled import settled
 from tehl.result.bars import Estimate, shows_second_order
 from tehl.result.solution import ConvergenceError
 from tehl.result.transient import HistoryBars, TransientSolution
@@ -83,7 +83,7 @@ def certify_transient(
         When the transient problem is not valid, or the grid cannot be halved.
     """
     options = options or Options()
-    if problem.contact.is_line:
+    if problem.contact.has_lines:
         options = settled(problem, options)
     if options.points != "auto":
         check_certifiable(options, transient=True)

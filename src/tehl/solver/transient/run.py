@@ -12,9 +12,9 @@ from tehl.contact.moment import courses_of
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.transient import Transient
-from tehl.estimate.domain import planned
 from tehl.estimate.duration import misplaced, number_of_steps
 from tehl.estimate.grid import Grid
+from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
 from tehl.kernels.warmup import warm_up

@@ -1,0 +1,176 @@
+"""Number of nodes, planned for the error to reach."""
+
+from tehl.contact.options import Domain, Options
+from tehl.contact.shape import LINE
+from tehl.estimate.domain import domain_of, far_field_error
+from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.line import LINE_ROUGH_NODES, line_bar, line_points
+from tehl.estimate.scaling import Groups, ScaledProblem
+from tehl.estimate.settled import settled
+from tehl.estimate.starvation import is_starved, supplied_film
+from tehl.estimate.summits import shared_load
+from tehl.estimate.third_order import third_order_bar
+
+LEAST_LAMBDA = 0.3
+"""Film over sigma below which asperities make bars no smaller."""
+FAMILIES = tuple(2**k * n + 1 for k in range(2, 9) for n in (16, 20, 24, 28))
+"""Nodes from which `expected_points` chooses; at least three grids."""
+ROLLER_NODES, LEAST_ROWS = tuple(one for one in FAMILIES if one > 128), 128
+"""Numbers of nodes along a roller's entrainment, and least intervals along it: its ends."""
+FAVOURED = tuple(nodes for nodes in FAMILIES if nodes > 80 and (nodes - 1) % 7)
+"""Those of a wedge of third order: their coarsest grids cost least."""
+BAR, BAR_COUPLED, EXPECTED_BAR_MARGIN = 0.24, 1.16, 1.25
+"""Factors of `expected_bar`: of all contacts, of heated and thinning ones, and the margin with
+which four of five contacts reach the error on the expected grid."""
+EXTRAPOLATED, HIGHER = 0.35, (2.5, 1.5)
+"""Error bar of an extrapolated film over that of the film without, where that is large; factor and
+power of that where it is small."""
+SLENDER_RATIO_OF_NODES = 1.5
+"""a_y/a_x from which half as many nodes along y leave the same error."""
+WAVE_NODES, ROUGH_NODES = 20.0, 1024
+"""Nodes on the shortest wave of the surfaces, and most nodes for that reason."""
+
+
+def expected_bar(
+    groups: Groups,
+    domain: Domain,
+    nodes: float,
+    *,
+    is_coupled: bool = False,
+    film: float | None = None,
+) -> float:
+    """Return the error bar of the film by the mesh to expect, the larger of central and minimum.
+
+    A fit to 215 random smooth contacts with M = 2 to 2000, L = 0.5 to 20 and R_y/R_x = 0.5 to 5
+    (``python -m benchmarks.coverage``), within a factor of 1.5 for nine of ten.
+
+    Parameters
+    ----------
+    groups, domain : Groups, Domain
+        The contact, and the domain of the solve.
+    nodes : float
+        Nodes per direction.
+    is_coupled : bool
+        Whether the film is heated or thins by shear.
+    film : float or None
+        Central film, if another than that of smooth flooded contacts [-]: `film_to_resolve`.
+    """
+    if groups.shape.as_line:
+        return line_bar(groups, domain, nodes)
+    width = (domain.x[1] - domain.x[0]) / (nodes - 1)
+    film = expected_central_film(groups) if film is None else film
+    factor = BAR * (BAR_COUPLED if is_coupled else 1.0)
+    loads = groups.M**0.77 * max(groups.L, 0.1) ** 0.2
+    return float(factor * width**2 * loads / (film**0.59 * groups.ellipticity**1.05))
+
+
+def expected_points(  # noqa: PLR0913 (one formula)
+    groups: Groups,
+    domain: Domain,
+    error: float,
+    *,
+    is_coupled: bool = False,
+    least: float = 0.0,
+    film: float | None = None,
+    extrapolate: bool = False,
+) -> int:
+    """Return the nodes per direction on which the error bars of the film will be below an error.
+
+    Parameters
+    ----------
+    groups, domain : Groups, Domain
+        The contact, and the domain of the solve.
+    error : float
+        Relative error of central and minimum film [-].
+    is_coupled : bool
+        Whether the film is heated or thins by shear.
+    least : float
+        Nodes that must be exceeded, for waves of the surfaces.
+    film : float or None
+        Central film, if another than that of smooth flooded contacts [-]: `film_to_resolve`.
+    extrapolate : bool
+        Whether the two finest grids are combined.
+    """
+    if groups.shape is LINE:
+        return line_points(groups, domain, error, least)
+    if groups.shape.as_line:
+        bars = ((nodes, line_bar(groups, domain, nodes)) for nodes in ROLLER_NODES)
+        return next((n for n, bar in bars if n > least and bar <= error), ROLLER_NODES[-1])
+    left = _left_to_the_mesh(groups, domain, error)
+    bars = (
+        (nodes, expected_bar(groups, domain, nodes, is_coupled=is_coupled, film=film))
+        for nodes in FAMILIES
+    )
+    if extrapolate:
+        factor, power = HIGHER
+        bars = ((nodes, min(EXTRAPOLATED * bar, factor * bar**power)) for nodes, bar in bars)
+    return next((nodes for nodes, bar in bars if nodes > least and bar <= left), FAMILIES[-1])
+
+
+def _left_to_the_mesh(groups: Groups, domain: Domain, error: float) -> float:
+    """Return the error bar of the film that the edges of the domain leave to the mesh."""
+    return max(error - far_field_error(groups, domain), 0.5 * error) / EXPECTED_BAR_MARGIN
+
+
+def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> float:
+    """Return the nodes that put `WAVE_NODES` on the shortest wave, `ROUGH_NODES` at most."""
+    problem, scales = scaled.problem, scaled.scales
+    waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
+    along = (domain.x[1] - domain.x[0]) * scales.half_width_x / min(wave[0] for wave in waves)
+    across = (domain.y[1] - domain.y[0]) * scales.half_width_y / min(wave[1] for wave in waves)
+    if problem.contact.is_line:
+        return min(WAVE_NODES * along, LINE_ROUGH_NODES)
+    return min(WAVE_NODES * max(along, across), ROUGH_NODES)
+
+
+def planned(scaled: ScaledProblem, options: Options) -> Options:
+    """Return ``options`` with the nodes on which the error to reach is expected.
+
+    Options that state ``points`` are returned as they are.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Its expected film, waves and inlet temperature decide the nodes.
+    options : Options
+        With the error to reach; stated ``points`` are kept.
+    """
+    options = settled(scaled.problem, options)
+    if options.points != "auto":
+        return options
+    domain, is_line = domain_of(scaled, options), scaled.problem.contact.is_line
+    least = _nodes_of_waves(scaled, domain)
+    if options.order > 2 and not is_line:
+        left = _left_to_the_mesh(scaled.entering, domain, options.target)
+        more = (nodes for nodes in FAVOURED if nodes > least)
+        enough = (one for one in more if third_order_bar(scaled, domain, one) <= left)
+        nodes = next(enough, FAVOURED[-1])
+        is_slender = scaled.groups.ellipticity >= SLENDER_RATIO_OF_NODES
+        return options.on_points(nodes, (nodes - 1) // 2 + 1 if is_slender else nodes)
+    nodes = expected_points(
+        scaled.entering,
+        domain,
+        options.target,
+        is_coupled=scaled.problem.is_coupled,
+        least=least,
+        film=film_to_resolve(scaled),
+        extrapolate=bool(options.extrapolate),
+    )
+    if scaled.problem.contact.length is not None:
+        return options.on_points(nodes, max((nodes - 1) // 2, LEAST_ROWS) + 1)
+    return options.on_points(nodes, 1 if is_line else nodes)
+
+
+def film_to_resolve(scaled: ScaledProblem) -> float | None:
+    """Return the film that `expected_bar` takes for another than a smooth flooded one [-].
+
+    None for smooth flooded contacts. Asperities hold the surfaces apart, leave less load to the
+    film and limit its slopes: a fit to 80 random contacts (lambda 0.05 to 3), with bars 0.7 to 3
+    times too large for eight of ten.
+    """
+    if scaled.problem.asperities is None:
+        return supplied_film(scaled) if is_starved(scaled) else None
+    film, shared = expected_central_film(scaled.entering), shared_load(scaled)
+    ratio = film * scaled.scales.film_thickness / scaled.problem.asperity_rms
+    left = (1.0 - shared.share) ** 1.23 * min(max(ratio, LEAST_LAMBDA), 1.0) ** 1.7
+    return film * max(shared.gap / film, 1.0) ** 2 / left

@@ -1,0 +1,88 @@
+"""Options of a solve, settled by the kind of contact: order, error to reach and extrapolation."""
+
+from tehl.base.errors import InputError
+from tehl.contact.options import LINE_WIDTH, ROLLER_ENDS, Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.line import HEATED_LINE_ERROR, LINE_ERROR
+
+ROLLER_ERROR = 0.05
+"""Relative error of the film of a roller that is reached by default: at its ends the smallest film
+changes by some percent with each finer grid."""
+
+
+def settled(problem: ContactProblem, options: Options) -> Options:
+    """Return ``options`` that say whether the film of a contact is extrapolated.
+
+    Waves of rough surfaces, nodes that touch and time steps do not show one order.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Smooth steady films without boundary contact are extrapolated if the grid is chosen too.
+    options : Options
+        Returned as they are if they state ``extrapolate``.
+    """
+    if problem.contact.is_line:
+        return _of_one_row(problem, options)
+    if problem.contact.has_lines:
+        options = _between_ends(problem, options)
+    if options.domain != "auto" and options.domain.y == LINE_WIDTH:
+        raise InputError("numerics.domain.y is missing: give the side edges, such as [-3.0, 3.0]")
+    if isinstance(options.points, tuple) and options.points[1] == 1:
+        raise InputError('numerics.points: one row of nodes is for contact.type = "line" alone')
+    if options.extrapolate is not None:
+        return options
+    found = options.points == "auto" and _is_smooth(problem)
+    return options.model_copy(update={"extrapolate": found})
+
+
+def _between_ends(problem: ContactProblem, options: Options) -> Options:
+    """Return the options of a roller, whose domain ends where it does.
+
+    At its ends the pressure is steep, and the film does not show one order. The wedge is of third
+    order as in line contacts.
+    """
+    domain = options.domain
+    changes: dict[str, object] = {"extrapolate": bool(options.extrapolate)}
+    if options.wedge_order is None and options.extrapolate is None and _is_smooth(problem):
+        changes["wedge_order"] = 3
+    if options.error is None and options.points == "auto":
+        changes["error"] = ROLLER_ERROR
+    options = options.model_copy(update=changes)
+    if domain == "auto" or domain.y == ROLLER_ENDS:
+        return options
+    if domain.y != LINE_WIDTH:
+        raise InputError(
+            "numerics.domain.y: the nodes of a roller end where it does; state domain.x alone"
+        )
+    return options.model_copy(update={"domain": domain.model_copy(update={"y": ROLLER_ENDS})})
+
+
+def _of_one_row(problem: ContactProblem, options: Options) -> Options:
+    """Return the options of a line contact, whose nodes lie on one row.
+
+    They are cheap, so no film is extrapolated; the wedge is of third order where that of an
+    extrapolated film would be.
+    """
+    points, domain = options.points, options.domain
+    if isinstance(points, tuple) and points[1] != 1:
+        raise InputError(
+            f"numerics.points = {list(points)}: a line contact has nodes along x alone; take "
+            f"{points[0]}"
+        )
+    changes: dict[str, object] = {"extrapolate": bool(options.extrapolate)}
+    if options.wedge_order is None and options.extrapolate is None and _is_smooth(problem):
+        changes["wedge_order"] = 3
+    if options.error is None and points == "auto" and _is_smooth(problem):
+        changes["error"] = HEATED_LINE_ERROR if problem.is_coupled else LINE_ERROR
+    if isinstance(points, int):
+        changes["points"] = (points, 1)
+    if domain != "auto" and domain.y != LINE_WIDTH:
+        changes["domain"] = domain.model_copy(update={"y": LINE_WIDTH})
+    return options.model_copy(update=changes)
+
+
+def _is_smooth(problem: ContactProblem) -> bool:
+    """Whether a steady film is smooth on the mesh."""
+    rough = problem.is_rough or problem.contact_film is not None
+    return not rough and problem.transient is None
