@@ -12,6 +12,7 @@ from tehl.base.units import (
     Conductivity,
     Density,
     Force,
+    Frequency,
     HeatCapacity,
     Height,
     KinematicViscosity,
@@ -111,6 +112,7 @@ def test_an_invalid_force_is_rejected_with_an_example(text: object, words: str):
         (Speed, "500 rpm at", "does not begin with a number"),
         (Speed, "-500 rpm at 40 mm", "must be positive"),
         (Force, "500 rpm", "rotational speed"),
+        (Frequency, "50 rad/s", "unit of an angular velocity .rad/s."),
     ],
 )
 def test_a_rotational_speed_needs_a_radius(kind: object, text: str, words: str):

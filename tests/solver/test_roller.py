@@ -51,6 +51,49 @@ def test_the_middle_of_a_roller_is_a_line_contact():
     assert abs(found.scaled.y[found.scaled.film.min(axis=1).argmin()]) > 0.9
 
 
+@pytest.mark.parametrize(
+    "physics",
+    [
+        {"thermal": {"temperature": "40 degC"}, "surface_1": STEEL | {"temperature": "45 degC"}},
+        {"lubricant": {"name": "mineral-oil", "shear": {"law": "eyring", "stress": "5 MPa"}}},
+        {"supply": {"layer": "0.1 um"}},
+        {
+            "asperities": {
+                "model": "greenwood-tripp",
+                "rms": "0.05 um",
+                "summit_radius": "20 um",
+                "summit_density": "4e10 1/m^2",
+            }
+        },
+    ],
+    ids=["heat", "thinning", "scarce", "asperities"],
+)
+def test_physics_join_in_the_middle_as_in_a_line_contact(physics):
+    slip = 0.3 if "lubricant" in physics else 0.0
+    motion = {"radius": "10 mm", "moes_load": 50.0, "moes_speed": 10.0, "slide_roll_ratio": slip}
+    stated = {"surface_1": STEEL, "surface_2": STEEL, "lubricant": "mineral-oil"} | physics
+    ends = {"type": "roller", "length": "10 mm", "profile": LOGARITHMIC}
+    found, line = (
+        tehl.solve(
+            tehl.ContactProblem(contact=motion | kind, **stated),
+            Options(points=(257, rows), wedge_order=3),
+        )
+        for kind, rows in ((ends, 65), ({"type": "line"}, 1))
+    )
+    # the domain ends with the roller, also where warm bodies or scarce oil change it
+    assert found.scaled.y[-1] == 1.0
+    # by its profile the middle carries up to 2 % more than the mean
+    assert found.film_scaled.central == pytest.approx(line.film_scaled.central, rel=3e-3)
+
+
+def test_a_roller_is_certified_between_its_ends():
+    found = tehl.certify(roller(profile=LOGARITHMIC), Options(points=(257, 129)))
+    central = found.uncertainty["film_central"]
+    assert 1.0 < central.observed_order < 2.5
+    assert central.domain < 1e-3 * central.value  # the larger domain is longer along x alone
+    assert central.uncertainty < 0.03 * central.value
+
+
 def test_a_tilted_roller_mirrors_and_carries_more_where_the_gap_closes():
     crowned = {"shape": "crown", "radius": "2 m"}
     first, second = (

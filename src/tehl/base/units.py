@@ -224,8 +224,11 @@ class Quantity:
             raise ValueError(f"{error}; {self._expected}") from None
         if self.unit == "-" and unit in _ANGLE_UNITS:
             raise ValueError(f"has the unit of an angle ({unit}); {self._expected}")
-        if self.unit == "rad/s" and not any(one in unit for one in _ANGLE_UNITS):
+        turns = any(one in unit for one in _ANGLE_UNITS)
+        if self.unit == "rad/s" and not turns:
             raise ValueError(f"has the unit of a frequency ({unit}); {self._expected}")
+        if self.unit == "Hz" and turns:
+            raise ValueError(f"has the unit of an angular velocity ({unit}); {self._expected}")
         if dimension != self.dimension:
             way = _CONVERSIONS.get((dimension, self.dimension))
             hint = "" if way is None else f" ({way})"
