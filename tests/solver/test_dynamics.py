@@ -1,5 +1,7 @@
 """Stiffness and damping: independent values, two steady films, the march in time, passivity."""
 
+from importlib.metadata import version
+
 import numpy as np
 import pytest
 
@@ -265,7 +267,10 @@ def test_two_films_in_series_are_half_as_stiff():
 
 
 def test_rotor_programs_read_the_table_of_a_bearing():
-    """ROSS takes the coefficients of a bearing over the frequency, and a disc on it vibrates."""
+    """ROSS takes the coefficients of a bearing over the frequency, and a disc on it vibrates.
+
+    ROSS 3 takes those over speed and frequency: between two speeds of the table it has their mean.
+    """
     rings = tuple(case_from_tables(ball_tables())[0] for _ in range(2))
     angles, loads = radial_loads(100.0, 7)
     assert (loads * np.cos(angles)).sum() == pytest.approx(100.0)
@@ -280,13 +285,23 @@ def test_rotor_programs_read_the_table_of_a_bearing():
     assert (found["cxx"] > 0.0).all()
     with pytest.raises(InputError, match="beyond the table"):
         table.coefficients(1000.0)
+    whole = table.coefficients()
+    assert whole["cyy"].shape == (2, 2)
+    np.testing.assert_allclose(whole["cyy"].mean(axis=0), found["cyy"])
     ross = pytest.importorskip("ross", reason="ross-rotordynamics is not installed")
     steel = ross.Material(name="steel", rho=7810.0, E=211e9, G_s=81.2e9)
     shaft = [ross.ShaftElement(L=0.25, idl=0.0, odl=0.05, material=steel) for _ in range(2)]
     disk = ross.DiskElement.from_geometry(n=1, material=steel, width=0.07, i_d=0.05, o_d=0.28)
     bearings = [ross.BearingElement(n=node, **found) for node in (0, 2)]
     rotor = ross.Rotor(shaft, [disk], bearings)
-    assert rotor.run_modal(speed=300.0).wn[0] > 100.0
+    first = rotor.run_modal(speed=300.0).wn[0]
+    assert first > 100.0
+    if int(version("ross-rotordynamics").split(".")[0]) >= 3:
+        bearings = [ross.BearingElement(n=node, **whole) for node in (0, 2)]
+        read = bearings[0].K(frequency=100.0, speed=300.0)[0, 0]
+        assert read == pytest.approx(found["kxx"][0], rel=1e-6)
+        modes = ross.Rotor(shaft, [disk], bearings).run_modal(speed=300.0)
+        assert modes.wn[0] == pytest.approx(first, rel=1e-3)
 
 
 def squeezed(scaled, gap, reach, points):

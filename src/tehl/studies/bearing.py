@@ -73,37 +73,35 @@ class BearingTable:
     """Complex, (n, m, 2, 2) [N/m]."""
 
     def coefficients(self, speed: float | None = None) -> dict[str, Array]:
-        """Return the arguments of a ``BearingElement`` of ROSS: kxx, cxy, ... over ``frequency``.
-
-        ROSS 2.3 has tables over one variable, so that they are at one speed of the shaft.
+        """Return the arguments of a ``BearingElement`` of ROSS: kxx, cxy, ... and their axes.
 
         Parameters
         ----------
         speed : float or None
-            Of the shaft [rad/s], linear between those of the table. None takes the frequencies as
-            those of the shaft: synchronous vibration.
+            Of the shaft [rad/s], linear between those of the table: tables over the frequency.
+            None, the table over speed and frequency, needs ROSS 3 or later.
 
         Raises
         ------
         InputError
-            If the speed, or a frequency in its place, is beyond the table.
+            If the speed is beyond the table.
         """
-        speeds = self.frequency if speed is None else np.full(self.frequency.size, speed)
-        low, high = self.speed[[0, -1]]
-        if speeds.min() < low or speeds.max() > high:
-            raise InputError(
-                f"speed = {speeds.min():g} to {speeds.max():g} rad/s is beyond the table: it has "
-                f"{low:g} to {high:g} rad/s"
-            )
-        omega = np.where(self.frequency > 0.0, self.frequency, 1.0)
         found = {"frequency": self.frequency}
+        if speed is None:
+            found["speed"] = self.speed
+        else:
+            low, high = self.speed[[0, -1]]
+            if not low <= speed <= high:
+                raise InputError(
+                    f"speed = {speed:g} rad/s is beyond the table: it has {low:g} to {high:g} rad/s"
+                )
         for row, first in enumerate("xy"):
             for column, second in enumerate("xy"):
-                part = self.impedance[:, :, row, column]
-                at = np.array(
-                    [np.interp(one, self.speed, part[:, k]) for k, one in enumerate(speeds)]
-                )
-                found[f"k{first}{second}"], found[f"c{first}{second}"] = at.real, at.imag / omega
+                at = self.impedance[..., row, column]
+                if speed is not None:
+                    at = np.array([np.interp(speed, self.speed, one) for one in at.T])
+                found[f"k{first}{second}"] = at.real
+                found[f"c{first}{second}"] = at.imag / self.frequency
         return found
 
 

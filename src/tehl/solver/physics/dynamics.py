@@ -16,13 +16,10 @@ from tehl.operators.transfer import injected
 from tehl.result.fields import FilmDynamics
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
-from tehl.solver.cycle.methods import coarse_grid
 from tehl.solver.cycle.newton import one_thread
 from tehl.solver.cycle.start import pose_problem
-from tehl.solver.physics.response import FilmResponse, Solutions
+from tehl.solver.physics.response import STATIC_RESIDUAL, Directions, FilmResponse, Solutions
 
-COARSE_RESPONSE = 17
-"""Least nodes along x of the coarse correction: with 33 the dense matrix takes half of the time."""
 FRONT_DISTANCE = 0.1
 """Distance from the cavity, in half-widths, at which the pressure limits the amplitude."""
 RESPONSE_BAR, FRONT_BAR = 0.5, 4.0
@@ -191,7 +188,7 @@ def changes(
     level = levels[-1]
     level.update()
     stored = None if excess is None else 1.0 - excess
-    system = FilmResponse(level, coarse_grid(levels, COARSE_RESPONSE), stored)
+    system = FilmResponse(level, stored)
     every, slopes = np.ones(system.unknown.size), system.outside
     # sources a and b of the approach, which lessens the film, and of the speed
     sources = ((system.by_film @ every, -system.density), (system.wedge, 0.0 * every))[:inputs]
@@ -201,15 +198,19 @@ def changes(
     found = np.zeros((2, 2, 2, omegas.size))
     pressure = np.zeros((omegas.size, every.size))
     with one_thread():
-        static = [system.solve(0.0, steady) for steady, _ in sources]
+        still = Directions(system, 0.0)
+        static = [still.solve(steady, 0.0 * every, STATIC_RESIDUAL) for steady, _ in sources]
         spaces = [
             Solutions(system, source[1] + system.parts(one)[1])
             for source, one in zip(sources, static, strict=True)
         ]
         for place in _ends_first(omegas.size):
-            omega = omegas[place]
+            omega, directions = omegas[place], still if omegas[place] == 0.0 else None
             for number, (one, space) in enumerate(zip(static, spaces, strict=True)):
-                late = space.at(omega)
+                late, is_close = space.start(omega)
+                if not is_close:
+                    directions = directions or Directions(system, omega)
+                    late = space.at(directions, late)
                 now, ahead = _forces(system, one, moved[number]), _forces(system, late, 0.0)
                 now[0] += outside[number][0]
                 ahead[0] += outside[number][1]
