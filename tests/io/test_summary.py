@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from tehl.io.summary import summary
-from tehl.result.quantities import moes_film_factor
+from tehl.result.families import moes_film_factor
 
 KEYS = {
     "groups": "M L U W G lambda_bar alpha_bar hertz_pressure_pa hertz_half_width_m",

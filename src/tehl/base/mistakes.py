@@ -2,20 +2,28 @@
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, Literal, NamedTuple, TypeVar, get_args, get_origin
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeVar
 
-from pydantic import BaseModel, ValidationError
-from pydantic.fields import FieldInfo
+from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from tehl.base.errors import InputError
+from tehl.base.keys import (
+    COMPARISONS,
+    KeyPath,
+    Model,
+    example,
+    field_at,
+    key_paths,
+    limits_of,
+    models_at,
+    tags,
+)
 from tehl.base.units import Quantity, percentage
 from tehl.base.wording import closest, key_text, shown, suggestion_for
 
-Model = type[BaseModel]
 AnyModel = TypeVar("AnyModel", bound=Model)
-KeyPath = tuple[str | int, ...]
 
 _CASE: dict[str, Model] = {}
 """Models whose keys together make a case file, by the table that holds these; "" is the file."""
@@ -81,7 +89,7 @@ def describe(error: ValidationError, data: object, model: Model, prefix: str = "
     for part in path[:-1]:
         table = table[part]
     name = ".".join(key_text(part) for part in ((prefix, *path) if prefix else path))
-    mistake = _Mistake(name, path, first, _models_at(model, path), table)
+    mistake = _Mistake(name, path, first, models_at(model, path), table)
     sentence = _SENTENCES.get(first["type"], _pydantic_sentence)
     return _of_heading(mistake) or sentence(mistake)
 
@@ -103,7 +111,10 @@ def of_call(error: ValidationError, values: Mapping[str, Any], model: Model) -> 
 
 # ---- where the mistake is
 
+
 _NOT_A_TABLE = ("model_type", "model_attributes_type", "dict_type")
+
+
 _RANKS = {"extra_forbidden": 0, "value_error": 1, "missing": 2, "literal_error": 4}
 
 
@@ -130,35 +141,6 @@ def _path(error: ErrorDetails, data: object) -> KeyPath:
     if error["type"] == "missing":
         path.append(error["loc"][-1])
     return tuple(path)
-
-
-def _models(annotation: object) -> Iterator[Model]:
-    """Yield the models an annotation may hold."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        yield annotation
-    for argument in get_args(annotation):
-        yield from _models(argument)
-
-
-def _added(field: FieldInfo) -> Iterator[Model]:
-    """Yield the models that notes on a field add to its annotation."""
-    for note in field.metadata:
-        yield from getattr(note, "models", ())
-
-
-def _models_at(root: Model, path: KeyPath) -> list[list[Model]]:
-    """Return the possible models of each step of ``path``, the root first."""
-    steps = [[root]]
-    for key in path:
-        field = _field(steps[-1], key)
-        inside = steps[-1] if isinstance(key, int) else []
-        steps.append([*_models(field.annotation), *_added(field)] if field else inside)
-    return steps
-
-
-def _field(models: Sequence[Model], key: str | int) -> FieldInfo | None:
-    found = (model.model_fields[key] for model in models if key in model.model_fields)
-    return next(found, None) if isinstance(key, str) else None
 
 
 # ---- one sentence per type of mistake
@@ -233,10 +215,10 @@ def _missing(mistake: _Mistake) -> str:
     if isinstance(mistake.path[-1], int):
         name = mistake.name.rpartition(".")[0]
         return f"{name} = {shown(mistake.value)}: must have two numbers"
-    laws = [tag for model in mistake.models[-1] for tag in _tags(model)]
+    laws = [tag for model in mistake.models[-1] for tag in tags(model)]
     if laws:
         return f"{mistake.name} is missing; expected a table with law, one of {', '.join(laws)}"
-    field = _field(mistake.models[-2], mistake.path[-1])
+    field = field_at(mistake.models[-2], mistake.path[-1])
     if field is None or (good := example(field)) is None:
         return f"{mistake.name} is missing"
     kinds = [note.name for note in field.metadata if isinstance(note, Quantity)]
@@ -245,7 +227,7 @@ def _missing(mistake: _Mistake) -> str:
 
 def _discriminator_missing(mistake: _Mistake) -> str:
     key = _discriminator(mistake)
-    known = [tag for model in mistake.models[-1] for tag in _tags(model, key)]
+    known = [tag for model in mistake.models[-1] for tag in tags(model, key)]
     if isinstance(mistake.path[-1], int):  # a sum within a sum
         known = [tag for tag in known if tag != "sum"]
     return f"{mistake.name}.{key} is missing; known are {', '.join(known)}"
@@ -255,7 +237,7 @@ def _discriminator_unknown(mistake: _Mistake) -> str:
     tag = mistake.error["ctx"]["tag"]
     known = re.findall(r"'([^']+)'", mistake.error["ctx"]["expected_tags"])
     key = _discriminator(mistake)
-    known += [word for one in mistake.models[-1] for word in _tags(one, key) if word not in known]
+    known += [word for one in mistake.models[-1] for word in tags(one, key) if word not in known]
     name = f"{mistake.name}.{key}"
     return f"{name} = {shown(tag)}: unknown; {suggestion_for(str(tag), known)}"
 
@@ -282,7 +264,7 @@ def _own_sentence(mistake: _Mistake) -> str:
     if not mistake.name:
         return message
     first = re.split(r"[ .]", message, maxsplit=1)[0]
-    about_a_key = first in mistake.value or _field(mistake.models[-1], first) is not None
+    about_a_key = first in mistake.value or field_at(mistake.models[-1], first) is not None
     return f"{mistake.name}{'.' if about_a_key else ' '}{message}"
 
 
@@ -306,9 +288,9 @@ def _not_a_table(mistake: _Mistake) -> str:
         if own is not None:
             return own
     models = mistake.models[-1]
-    laws = [model for model in models if _tags(model)]
+    laws = [model for model in models if tags(model)]
     if laws:
-        chosen = next((law for law in laws if mistake.value in _tags(law)), laws[0])
+        chosen = next((law for law in laws if mistake.value in tags(law)), laws[0])
         return f"must be a table such as {_whole_table(chosen, {})}"
     fields = (pair for model in models for pair in model.model_fields.items())
     keys = (f"{key} = {good}" for key, field in fields if (good := example(field)))
@@ -322,7 +304,7 @@ def _of_heading(mistake: _Mistake) -> str:
         return ""
     if mistake.error["type"] in ("missing", "extra_forbidden"):  # of a key in this table
         return ""
-    key, field = mistake.path[-1], _field(mistake.models[-2], mistake.path[-1])
+    key, field = mistake.path[-1], field_at(mistake.models[-2], mistake.path[-1])
     if field is None or mistake.models[-1] or (good := example(field)) is None:
         return ""
     parent = mistake.name.rpartition(".")[0]
@@ -332,31 +314,15 @@ def _of_heading(mistake: _Mistake) -> str:
 def _limits(mistake: _Mistake) -> str:
     """Return the numbers between which a value must lie; empty without limits."""
     steps = len(mistake.path) - (1 if isinstance(mistake.path[-1], int) else 0)
-    field = _field(mistake.models[steps - 1], mistake.path[steps - 1])
-    found = {} if field is None else dict(_limits_of(field.annotation, field.metadata))
+    field = field_at(mistake.models[steps - 1], mistake.path[steps - 1])
+    found = {} if field is None else dict(limits_of(field.annotation, field.metadata))
     if found.pop("whole", False) and {"ge", "le"} <= found.keys():
         return f"must be a whole number from {found['ge']} to {found['le']}"
     write = percentage if found.pop("is_share", False) else "{:g}".format
-    words = [f"{text} {write(found[name])}" for name, text in _COMPARISONS.items() if name in found]
+    words = [f"{text} {write(found[name])}" for name, text in COMPARISONS.items() if name in found]
     return f"must be {' and '.join(words)}" if words else ""
 
 
-def _limits_of(annotation: Any, notes: list[Any]) -> Iterator[tuple[str, Any]]:
-    """Yield the limits of a field by name, and whether it is a whole number or a share."""
-    if annotation is int:
-        yield "whole", True
-    for note in notes:
-        if isinstance(note, FieldInfo):
-            yield from _limits_of(None, note.metadata)
-        for name in (*_COMPARISONS, "is_share"):
-            if (limit := getattr(note, name, None)) is not None:
-                yield name, limit
-    for argument in get_args(annotation):
-        if not isinstance(argument, Quantity):
-            yield from _limits_of(argument, list(getattr(argument, "__metadata__", ())))
-
-
-_COMPARISONS = {"gt": "greater than", "ge": "at least", "lt": "less than", "le": "at most"}
 _OUTSIDE = (
     *("greater_than", "greater_than_equal", "less_than", "less_than_equal"),
     *("int_type", "int_parsing", "int_from_float", "int_parsing_size"),
@@ -386,18 +352,11 @@ _SENTENCES = {
 # ---- laws, which are tables chosen by their key ``law``
 
 
-def _tags(model: Model, key: str = "law") -> tuple[str, ...]:
-    """Return the words under ``key`` that choose a model; none if it has no such key."""
-    law = model.model_fields.get(key)
-    annotation = law.annotation if law else None
-    return get_args(annotation) if get_origin(annotation) is Literal else ()
-
-
 def _chosen_law(models: Sequence[Model], table: object) -> Model | None:
     """Return which of several laws a table states, None without a choice."""
     if len(models) < 2 or not isinstance(table, Mapping):
         return None
-    return next((model for model in models if table.get("law") in _tags(model)), None)
+    return next((model for model in models if table.get("law") in tags(model)), None)
 
 
 def _key_of_another_law(mistake: _Mistake, law: Model) -> str:
@@ -405,7 +364,7 @@ def _key_of_another_law(mistake: _Mistake, law: Model) -> str:
     keys = f"{', '.join(first)} and {last}" if first else last
     where = mistake.name.rpartition(".")[0]
     return (
-        f'{mistake.name} is not a key of law = "{_tags(law)[0]}", which takes {keys}; '
+        f'{mistake.name} is not a key of law = "{tags(law)[0]}", which takes {keys}; '
         f"replace the whole table, {where} = {_whole_table(law, mistake.table)}"
     )
 
@@ -414,7 +373,7 @@ def _whole_table(law: Model, table: Mapping[str, object]) -> str:
     """Return a law in TOML with the values that ``table`` states, and examples of missing ones."""
     fields = {key: field for key, field in law.model_fields.items() if key != "law"}
     kept = any(key in table and not field.is_required() for key, field in fields.items())
-    entries = [f'law = "{_tags(law)[0]}"']
+    entries = [f'law = "{tags(law)[0]}"']
     for key, field in fields.items():
         wanted = field.is_required() or (field.examples and not kept)
         if key in table:
@@ -422,33 +381,3 @@ def _whole_table(law: Model, table: Mapping[str, object]) -> str:
         elif wanted and (value := example(field)) is not None:
             entries.append(f"{key} = {value}")
     return "{ " + ", ".join(entries) + " }"
-
-
-def example(field: FieldInfo) -> str | None:
-    """Return a good value of a field, as a case file shows it; None if it has none."""
-    if field.examples:
-        return json.dumps(field.examples[0])
-    inside = (
-        note for one in get_args(field.annotation) for note in getattr(one, "__metadata__", ())
-    )
-    notes = (*field.metadata, *inside)
-    return next((note.example for note in notes if isinstance(note, Quantity)), None)
-
-
-# ---- words
-
-
-def key_paths(model: Model, prefix: str = "") -> Iterator[str]:
-    """Yield the paths of all keys of a model, those of tables in it included.
-
-    Parameters
-    ----------
-    model : Model
-        Class of the outermost table.
-    prefix : str
-        Path of that table with a final dot; empty for a whole case.
-    """
-    for key, field in model.model_fields.items():
-        yield f"{prefix}{key}"
-        for deeper in _models(field.annotation):
-            yield from key_paths(deeper, f"{prefix}{key}.")

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
+from tehl.base.keys import key_paths
 from tehl.base.lists import check_package, lines_of_sheet, numbered_lines, stripped
-from tehl.base.mistakes import key_paths
 from tehl.base.units import is_unit
 from tehl.contact.options import Options
 from tehl.io.case import from_name, plain_value, tables_of_text, toml_tables
