@@ -11,7 +11,7 @@ from tehl.contact.options import Domain, Options
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import starved_degree, starved_part, table
 from tehl.io.store import save
-from tehl.kernels import properties, relaxation, reynolds
+from tehl.kernels import cavities, properties, relaxation, reynolds
 from tehl.plots.oil import oil_map
 from tehl.post.layer import LayerDecay, layer_decay
 from tehl.post.starvation import meniscus, oil_flux
@@ -81,12 +81,12 @@ def cylinder(centre: float, oil: float, nodes: int, upstream: float) -> tuple[fl
     )
     zero, scratch = np.zeros_like(h), np.zeros((1, nodes))
     for number in range(500):  # the film grows upstream by some nodes per sweep
-        reynolds.mark_partial(film, stencil, zero, scratch, lines.ends)
+        cavities.mark_partial(film, stencil, zero, scratch, lines.ends)
         if number < 450:
-            reynolds.mark_second_order(film, stencil)
+            cavities.mark_second_order(film, stencil)
         relaxation.relax_lines(film, stencil, zero, lines)
     held, passed = np.zeros_like(h), np.zeros_like(h)
-    reynolds.oil_flow(film, stencil, held, passed)
+    cavities.oil_flow(film, stencil, held, passed)
     np.testing.assert_allclose(passed[0, :-1], oil, rtol=1e-10)  # through each section
     first = int(np.nonzero(p[0] > 0.0)[0][0])
     ahead = (held[0, first - 1] - oil) / (h[0, first - 1] - oil)

@@ -11,7 +11,16 @@ from typing import Any, NamedTuple, get_args, get_type_hints
 import numpy as np
 from numba import typeof, types
 
-from tehl.kernels import coarsest, properties, relaxation, reynolds, summation, summits, transfer
+from tehl.kernels import (
+    cavities,
+    coarsest,
+    properties,
+    relaxation,
+    reynolds,
+    summation,
+    summits,
+    transfer,
+)
 from tehl.kernels.energy import march, records, trail
 
 NUMBERS = {int: types.int64, float: types.float64, bool: types.boolean}
@@ -126,10 +135,10 @@ RARE = (
     _sample(relaxation.stiffen, 0.4),
     _sample(relaxation.relax_points, 0.4, self_film=1),
     _sample(reynolds.diagonal, 0.3),
-    _sample(reynolds.mark_partial, 0.5),
-    _sample(reynolds.mark_second_order, 0.2),
-    _sample(reynolds.keep_to_fronts, 0.2),
-    _sample(reynolds.oil_flow, 0.3),
+    _sample(cavities.mark_partial, 0.5),
+    _sample(cavities.mark_second_order, 0.2),
+    _sample(cavities.keep_to_fronts, 0.2),
+    _sample(cavities.oil_flow, 0.3),
     _sample(transfer.keep_residual, 0.2),
     _sample(transfer.correct_fronts, 0.2),
 )

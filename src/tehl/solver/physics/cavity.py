@@ -11,7 +11,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
-from tehl.kernels import reynolds, transfer
+from tehl.kernels import cavities, reynolds, transfer
 from tehl.kernels.properties import Factors, Film
 from tehl.operators.transfer import injected
 from tehl.solver.cycle.equations import Equations, Sources
@@ -137,7 +137,7 @@ class Conserving(ZeroPressure):
             return
         film, stencil = level.film, level.stencil
         scratch = np.empty((1, film.p.shape[1]))
-        reynolds.mark_partial(film, stencil, level.sources.reynolds, scratch, level.smoother.ends)
+        cavities.mark_partial(film, stencil, level.sources.reynolds, scratch, level.smoother.ends)
         if not self.keeps_orders:
             set_orders(level)
 
@@ -170,7 +170,7 @@ class Conserving(ZeroPressure):
         """Inject the marks of partly filled nodes."""
         if fine.stencil.conserves == reynolds.STEADILY:
             coarse.film.partial[:] = injected(fine.film.partial, coarse.film.partial)
-            reynolds.mark_second_order(coarse.film, coarse.stencil)
+            cavities.mark_second_order(coarse.film, coarse.stencil)
 
     def restrict(self, fine: Wetted, coarse: Wetted) -> None:
         """Keep the residuals of nodes whose coarse neighbour is cavitated."""
@@ -195,7 +195,7 @@ class Conserving(ZeroPressure):
         for number in range(most):
             before = film.partial.copy()
             front = FRONT_WIDTH, smoother.frozen, smoother.ends
-            reynolds.keep_to_fronts(film, level.stencil.mirror, *front)
+            cavities.keep_to_fronts(film, level.stencil.mirror, *front)
             level.share.freeze(smoother.frozen)
             smoother.sweep(film, level.stencil, level.sources.reynolds, level.equations.flow)
             self.mark(level)
@@ -210,14 +210,14 @@ class Conserving(ZeroPressure):
 
 def set_orders(level: Wetted) -> None:
     """Set the orders with which the nodes of a level pass on oil."""
-    reynolds.mark_second_order(level.film, level.stencil)
+    cavities.mark_second_order(level.film, level.stencil)
     level.share.lower(level.film)
 
 
 def oil_flow(level: Wetted) -> tuple[Array, Array]:
     """Return the oil at each node, rho H or less, and the flux to the east, ``grid.shape``."""
     held, passed = np.empty(level.grid.shape), np.empty(level.grid.shape)
-    reynolds.oil_flow(secant(level.film), level.stencil, held, passed)
+    cavities.oil_flow(secant(level.film), level.stencil, held, passed)
     return held, passed
 
 

@@ -1,0 +1,146 @@
+"""Partly filled cells of cavities, where oil is conserved: their marks, and the oil they pass."""
+
+from tehl.base.typing import Array, FlagArray, IntArray
+from tehl.kernels.compiled import helper, kernel
+from tehl.kernels.properties import Film
+from tehl.kernels.raw import raw
+from tehl.kernels.reynolds import (
+    MARK_THIRD_ORDER,
+    Stencil,
+    beyond,
+    both,
+    both_x,
+    clear,
+    inflow,
+    inner_end,
+    line_operator,
+    row_above,
+    row_below,
+)
+
+
+@kernel
+def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array, ends: IntArray) -> None:
+    """Mark cavitated nodes that stay partly filled: less oil comes than a full one would pass on.
+
+    ``scratch`` is (1, nx); nodes from ``ends[j]`` of line j on keep their mark.
+    """
+    film, rhs, scratch, ends = raw((film, rhs, scratch, ends))
+    partial, p, nx = film.partial, film.p, film.p.shape[1]
+    for j in range(0 if stencil.mirror else 1, inner_end(p.shape[0], stencil.mirror)):
+        if ends[j] == 0:
+            continue
+        end, to = ends[j], nx if ends[j] == nx - 1 else ends[j]
+        partial[j, 0] = film.layer[j] < film.rho[j, 0] * film.h[j, 0]
+        for i in range(1, to):
+            partial[j, i] = p[j, i] == 0.0
+        line_operator(film, stencil, j, scratch, (0, end))
+        for i in range(1, end):
+            partial[j, i] = p[j, i] == 0.0 and rhs[j, i] - scratch[0, i] >= 0.0
+
+
+@kernel
+def keep_to_fronts(film: Film, mirror: int, width: int, frozen: FlagArray, ends: IntArray) -> None:
+    """Freeze the nodes farther than ``width`` nodes from where a film begins.
+
+    ``ends`` (ny,) are the nodes from which on all of a line are frozen.
+    """
+    film, frozen, ends = raw((film, frozen, ends))
+    partial, (ny, nx) = film.partial, film.p.shape
+    for j in range(ny):
+        ends[j] = 0
+        for i in range(nx):
+            frozen[j, i] = 1
+    for j in range(0 if mirror else 1, inner_end(ny, mirror)):
+        for i in range(1, nx - 1):
+            if partial[j, i] > 0 or partial[j, i - 1] == 0:
+                continue
+            end = min(i + width + 1, nx - 1)
+            for row in range(max(j - width, 0), min(j + width + 1, ny)):
+                ends[row] = max(ends[row], end)
+                for column in range(max(i - width, 0), end):
+                    frozen[row, column] = 0
+
+
+@kernel
+def mark_second_order(film: Film, stencil: Stencil) -> None:
+    """Mark the nodes with two film nodes upstream, if the wedge is of second order.
+
+    With a third one downstream they pass on oil with third order, if the wedge is of that.
+    """
+    film, _ = raw((film, film.p))
+    partial, second, order = film.partial, film.second, 1 if stencil.w2 == 0.0 else 2
+    order = 3 if stencil.third > 0.0 else order
+    ny, nx = film.p.shape
+    for j in range(ny):
+        second[j, 0] = 0
+        second[j, 1] = order > 1 and not partial[j, 0]
+        for i in range(2, nx):
+            second[j, i] = order > 1 and not (partial[j, i - 1] or partial[j, i - 2])
+        if order > 2:
+            for i in range(2, nx - 1):
+                if second[j, i] and not (partial[j, i] or partial[j, i + 1]):
+                    second[j, i] = MARK_THIRD_ORDER
+
+
+@kernel
+def oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -> None:
+    """Write the oil at each node, and the flux through the face to the east, wedge and pressure.
+
+    Parameters
+    ----------
+    film, stencil : Film, Stencil
+        State, and weights of the operator.
+    held, passed : array (ny, nx)
+        rho h, or less where partly filled; flux through the east face of each cell, zero at the
+        last node and on edge lines.
+    """
+    film, held, passed = raw((film, held, passed))
+    ny, nx = film.p.shape
+    rate = stencil.w0 - stencil.w2
+    clear(passed)
+    for j in range(ny):
+        for i in range(nx):
+            held[j, i] = film.rho[j, i] * film.h[j, i]
+    for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
+        before, flux = inflow(film, stencil, j)
+        held[j, 0] = before
+        passed[j, 0] = flux - _face_flow(film, stencil, j, 0) / rate
+        for i in range(1, nx - 1):
+            mass = held[j, i]
+            if film.partial[j, i]:
+                gained, back = _flow_into(film, stencil, j, i)
+                held[j, i] = flux + gained / rate
+                flux += (gained - back) / rate
+                before = flux
+            else:
+                flux = mass
+                if film.second[j, i]:
+                    flux += beyond(film, stencil, (j, i), before)
+                before = mass
+            passed[j, i] = flux - _face_flow(film, stencil, j, i) / rate
+        if film.partial[j, nx - 1]:
+            held[j, nx - 1] = flux
+
+
+@helper
+def _face_flow(film: Film, stencil: Stencil, j: int, i: int) -> float:
+    """Return the pressure flow upstream through the east face; none into a partly filled cell."""
+    if film.partial[j, i]:
+        return 0.0
+    eps = both_x(stencil, film.eps_x[j, i], film.eps_x[j, i + 1])
+    return 0.5 * stencil.cx * eps * (film.p[j, i + 1] - film.p[j, i])
+
+
+@helper
+def _flow_into(film: Film, stencil: Stencil, j: int, i: int) -> tuple[float, float]:
+    """Return the pressure flow into a partly filled cell, and what of it comes back downstream."""
+    p, eps_x, eps_y = film.p, film.eps_x, film.eps_y
+    south, north, here = row_below(j, p.shape[0]), row_above(j, p.shape[0]), film.p[j, i]
+    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
+    gained = half_y * both(stencil, eps_y[j, i], eps_y[north, i]) * (p[north, i] - here)
+    gained += half_y * both(stencil, eps_y[j, i], eps_y[south, i]) * (p[south, i] - here)
+    gained += half_x * both_x(stencil, eps_x[j, i - 1], eps_x[j, i]) * (p[j, i - 1] - here)
+    from_east = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1]) * (p[j, i + 1] - here)
+    back = 0.0 if film.partial[j, i + 1] else from_east
+    return gained + from_east, back
