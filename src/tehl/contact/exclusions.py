@@ -122,6 +122,11 @@ def check_stress(problem: PointContact) -> None:
         return
     if problem.thermal is None:
         raise ValueError("stress.thermal = true needs the heat of the film: add [thermal]")
+    if problem.transient is not None:
+        raise ValueError(
+            "stress.thermal = true and transient exclude each other: the bodies keep the heat of "
+            "earlier times, and the fluxes of these are not kept"
+        )
     for body in stress.bodies:
         if (problem.surface_1, problem.surface_2)[body - 1].material.expansion is None:
             raise ValueError(

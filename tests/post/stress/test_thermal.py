@@ -14,8 +14,9 @@ from tehl.contact.stress import Stress
 from tehl.io.templates import template_text
 from tehl.post.stress.below import stress_below
 from tehl.post.stress.influence import HalfSpace
+from tehl.post.stress.numbers import stress_numbers
 from tehl.post.stress.periodic import periodic_stresses
-from tehl.post.stress.thermal import Heated, ThermalStress
+from tehl.post.stress.thermal import Heated, ThermalStress, thermal_stress_of
 
 STEEL = material("steel")
 UNIT = STEEL.young_modulus * STEEL.expansion / (1.0 - STEEL.poisson_ratio)
@@ -155,9 +156,48 @@ def test_heat_stresses_both_bodies_of_a_film_at_their_surfaces(warm):
     assert warm.with_stress(depths=10).summary()["stress"]["thermal_pa"] is None
 
 
+def test_a_body_at_rest_under_a_round_spot_has_half_of_e_alpha_t_along_its_surface():
+    x = np.linspace(-2.0, 2.0, 129) * WIDTH
+    flux = FLUX * np.exp(-3.0 * ((x / WIDTH) ** 2 + (x[:, None] / WIDTH) ** 2))
+    step = x[1] - x[0]
+    body = thermal_stress_of(Heated(flux, (step, step), 0.0, STEEL))
+    rise, stiffness = body.temperature(0.0)[64, 64], STEEL.young_modulus * STEEL.expansion
+    exact = 0.5 * FLUX * WIDTH / STEEL.conductivity * np.sqrt(np.pi / 3.0)
+    assert rise == pytest.approx(exact, rel=3e-4)
+    assert body.stresses(0.0)[:2, 64, 64] == pytest.approx(-0.5 * stiffness * rise)
+    xx, yy, _, xy, *_ = body.stresses(0.3 * WIDTH)
+    inside = np.s_[3:-3, 3:-3]
+    for one, axis in ((xx, 1), (yy, 0)):
+        terms = np.gradient(one, step, axis=axis), np.gradient(xy, step, axis=1 - axis)
+        assert np.abs(sum(terms)[inside]).max() < 1e-3 * np.abs(terms[0][inside]).max()
+    assert not any(load.any() for load in body.loads())
+
+
+@pytest.mark.parametrize("ratio", [2.0, 1.99])
+def test_resting_surfaces_are_stressed_and_of_slow_ones_the_remark_states_what_is_missing(ratio):
+    tables = thermal_tables()
+    tables["contact"] |= {"slide_roll_ratio": ratio}
+    film = tehl.solve(case_from_tables(tables)[0], tehl.Options(points=65))
+    slow = int(np.argmin(film.heat.solid_peclet))
+    found = film.with_stress(thermal=True, depths=10)
+    numbers = stress_numbers(found)
+    rise = film.heat.temperature[-slow].max() - film.scales.temperature
+    if ratio == 2.0:
+        assert found.stress.thermal[slow] == pytest.approx(UNIT * rise, rel=0.03)
+        assert not numbers.too_slow
+        return
+    assert found.stress.thermal[slow] == 0.0
+    assert numbers.thermal_most == pytest.approx(UNIT * rise)
+    assert any(f"most {1e-6 * numbers.thermal_most:.3g} MPa" in one for one in numbers.remarks)
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
-    [({"thermal": None}, r"add \[thermal\]"), ({"surface_1": {}}, "surface_1.material.expansion")],
+    [
+        ({"thermal": None}, r"add \[thermal\]"),
+        ({"surface_1": {}}, "surface_1.material.expansion"),
+        ({"transient": {"duration": "1 ms"}}, "keep the heat of earlier times"),
+    ],
 )
 def test_thermal_stress_needs_heat_and_expansion(change, words):
     tables = thermal_tables() | {"stress": {"thermal": True}}

@@ -10,7 +10,13 @@ from tehl.contact.stress import Stress
 from tehl.post.stress.influence import COMPONENTS, HalfSpace, Influence
 from tehl.post.stress.loads import SurfaceLoads, left_out, loads_on
 from tehl.post.stress.measures import Worst, largest_shear, worst
-from tehl.post.stress.thermal import Heated, ThermalStress, heated_body
+from tehl.post.stress.thermal import (
+    Heated,
+    RestingStress,
+    ThermalStress,
+    heated_body,
+    thermal_stress_of,
+)
 from tehl.post.stress.window import Window, cut, depths_of, halved, middle_row, wake, window_of
 from tehl.result.fields import BodyStress
 from tehl.result.solution import Solution
@@ -22,6 +28,10 @@ class Case(NamedTuple):
     loads: SurfaceLoads
     poisson_ratio: float
     heat: Heated | None = None
+
+
+Body = tuple[Any, Case, ThermalStress | RestingStress | None]
+"""Spectra of the loads, the case, and its thermal stress."""
 
 
 class Grid(NamedTuple):
@@ -177,16 +187,19 @@ class March:
         influence = space.influence(float(self.depths[level]))
         return self._stress(self._body(case, space), space, influence, grid, level) * self.scale
 
-    def _body(self, case: Case, space: HalfSpace) -> tuple[Any, Case, ThermalStress | None]:
+    def _body(
+        self, case: Case, space: HalfSpace
+    ) -> tuple[Any, Case, ThermalStress | RestingStress | None]:
         """Return the spectra of the loads of a body, itself, and its thermal stress."""
-        heat, loads = None if case.heat is None else ThermalStress(case.heat), list(case.loads)
+        heat = None if case.heat is None else thermal_stress_of(case.heat)
+        loads = list(case.loads)
         if heat is not None:
             loads = [one + more for one, more in zip(loads, heat.loads(), strict=True)]
         return space.spectra_of(*(load / self.scale for load in loads)), case, heat
 
     def _stress(
         self,
-        body: tuple[Any, Case, ThermalStress | None],
+        body: Body,
         space: HalfSpace,
         influence: Influence,
         grid: Grid,

@@ -101,6 +101,8 @@ class StressNumbers:
     """Whether the shear stress of the film is left out, as no oil can carry it."""
     too_slow: bool
     """Whether the heat of a body is left out, as the body is too slow."""
+    thermal_most: float
+    """E alpha dT/(1 - nu) of the largest rise along the surfaces that are too slow [Pa]."""
     counts_roughness: bool
     """Whether the pressure is that of rough surfaces: a factor of lambda or kappa on the relative
     life would count the roughness twice."""
@@ -126,7 +128,8 @@ class StressNumbers:
             (
                 self.too_slow,
                 "the thermal stress of a body whose solid Peclet number is below "
-                f"{LEAST_THERMAL_PECLET:g} is left out",
+                f"{LEAST_THERMAL_PECLET:g} is left out, as its heat runs ahead beyond the nodes: "
+                f"at most {1e-6 * self.thermal_most:.3g} MPa, E alpha dT/(1 - nu)",
             ),
         )
         return tuple(words for applies, words in known if applies)
@@ -149,10 +152,24 @@ def stress_numbers(result: Solution) -> StressNumbers | None:
         shallowest=float(found.depth[0]),
         traction_left_out=bool(found.left_out),
         too_slow=settings.thermal and not found.thermal.all(),
+        thermal_most=_slow_heat(result, found.body[found.thermal == 0.0].astype(int).tolist()),
         counts_roughness=any(
             part is not None for part in (result.heights, result.contact, result.asperities)
         ),
     )
+
+
+def _slow_heat(result: Solution, bodies: list[int]) -> float:
+    """Return the largest E alpha dT/(1 - nu) of some bodies [Pa]; at rest half of it."""
+    most, problem, heat = 0.0, result.problem, result.problem.heat
+    for body in bodies:
+        solid = (problem.surface_1, problem.surface_2)[body - 1].material
+        if result.heat is None or heat is None or solid.expansion is None:
+            continue
+        surface, bulk = result.heat.temperature[1 - body], (heat.bulk_1, heat.bulk_2)[body - 1]
+        rise = float(surface.max()) - bulk
+        most = max(most, solid.young_modulus * solid.expansion * rise / (1.0 - solid.poisson_ratio))
+    return most
 
 
 def _numbers(

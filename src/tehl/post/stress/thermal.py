@@ -26,6 +26,8 @@ from tehl.result.solution import Solution
 PERIOD_DECAY, SPREAD = 14.0, 7.5
 """Natural logarithm of what is left of the wake of the period before (1e-6), and the distance
 across the wake, in its widths sqrt(kappa x/u), at which its temperature has fallen as far."""
+RESTING_PECLET = 1e-3
+"""Solid Peclet number below which a body is at rest: its temperature differs by about this part."""
 _ODD_ALONG_X = np.array([1.0, 1.0, 1.0, -1.0, 1.0, -1.0])[:, None, None]
 
 
@@ -37,7 +39,7 @@ class Heated(NamedTuple):
     spacing: tuple[float, float]
     """Mesh widths along y and x [m]."""
     speed: float
-    """Of the body along x [m/s], of either sign, not zero."""
+    """Of the body along x [m/s], of either sign; zero at rest."""
     solid: Solid
     """With all thermal properties."""
     part: tuple[slice, slice] = (slice(None), slice(None))
@@ -54,14 +56,14 @@ class Heated(NamedTuple):
     def surface_stress(self) -> float:
         """Return E alpha dT/(1 - nu) of the largest rise of the surface [Pa]."""
         expansion = self.solid.expansion or 0.0
-        rise = float(ThermalStress(self).temperature(0.0).max())
+        rise = float(thermal_stress_of(self).temperature(0.0).max())
         return self.solid.young_modulus * expansion * rise / (1.0 - self.solid.poisson_ratio)
 
 
 def heated_body(
     result: Solution, body: int, window: Window, sides: tuple[int, int]
 ) -> Heated | None:
-    """Return a body with its heat, that of rubbing included; None if it moves too slowly.
+    """Return a body with its heat, that of rubbing included; None if it moves, but too slowly.
 
     Parameters
     ----------
@@ -76,7 +78,11 @@ def heated_body(
     """
     problem, heat = result.problem, result.heat
     speed, peclet = problem.motion.speed_of(body), problem.solid_peclet[body - 1]
-    if heat is None or peclet is None or not abs(peclet) >= LEAST_THERMAL_PECLET:
+    if heat is None or peclet is None:
+        return None
+    if abs(peclet) < RESTING_PECLET:
+        speed = 0.0
+    elif abs(peclet) < LEAST_THERMAL_PECLET:
         return None
     if not problem.motion.is_plain:  # its wake does not lie along x
         return None
@@ -169,3 +175,69 @@ class ThermalStress:
         ny, nx = self.shape
         found = np.asarray(irfft2(spectra, self.period)[:, :ny, :nx]) / self.fall
         return (found[:, :, ::-1] if self.backwards else found)[:, *self.part]
+
+
+class RestingStress:
+    r"""Stress of a body at rest under steady heat: plane, and no load is left on its surface.
+
+    With :math:`\Omega = z \ln(R + z) - R` and F = :math:`E\alpha_T/(2\pi k)\,q * \Omega`, whose
+    derivatives :math:`F_{xx} + F_{yy}` are :math:`-E\alpha_T T` (Sternberg and McDowell 1957),
+
+    .. math:: \sigma_x = F_{yy},\quad \sigma_y = F_{xx},\quad \tau_{xy} = -F_{xy},
+
+    and all others vanish. The flux is uniform on the cell of each node, nothing wraps around.
+
+    Parameters
+    ----------
+    heated : Heated
+        The body.
+    """
+
+    def __init__(self, heated: Heated) -> None:
+        flux, spacing, _, solid, self.part = heated
+        assert solid.conductivity is not None
+        assert solid.expansion is not None
+        self.shape, self.stiffness = flux.shape, solid.young_modulus * solid.expansion
+        half = tuple(next_fast_len(max(size, 2), real=True) for size in flux.shape)
+        y, x = ((np.arange(n + 2) - 0.5) * step for n, step in zip(half, spacing, strict=True))
+        self.corners = x[None, :], y[:, None]
+        self.period = (2 * half[0], 2 * half[1])
+        self.offsets = [np.fft.fftfreq(n, 1.0 / n).round().astype(int) for n in self.period]
+        self.heat = rfft2(flux, self.period) / (2.0 * np.pi * solid.conductivity)
+
+    def temperature(self, depth: float) -> Array:
+        """Return the temperature rise at a depth [m], on the wanted nodes [K]."""
+        return np.asarray(-self.stresses(depth)[:2].sum(axis=0) / self.stiffness)
+
+    def stresses(self, depth: float) -> Array:
+        """Return the components of the stress at a depth [m], (6, ...) [Pa]."""
+        x, y = self.corners
+        r = np.sqrt(x**2 + y**2 + depth**2)
+        log_term = depth * np.log(r + depth) if depth else 0.0
+        parts = (_bent(y, x, r, depth), _bent(x, y, r, depth), r - log_term)
+        kernels = [np.diff(np.diff(part, axis=0), axis=1) for part in parts]
+        rows, columns = self.offsets
+        place = np.ix_(np.abs(rows), np.abs(columns))
+        odd = np.sign(rows)[:, None] * np.sign(columns)
+        wrapped = np.stack([kernels[0][place], kernels[1][place], odd * kernels[2][place]])
+        ny, nx = self.shape
+        found = irfft2(rfft2(wrapped) * self.heat, self.period)[:, :ny, :nx][:, *self.part]
+        every = np.zeros((6, *found.shape[1:]))
+        every[[0, 1, 3]] = self.stiffness * found
+        return every
+
+    def loads(self) -> SurfaceLoads:
+        """Return loads of zero."""
+        nothing = np.zeros(self.shape)[self.part]
+        return SurfaceLoads(nothing, nothing, nothing)
+
+
+def _bent(x: Array, y: Array, r: Array, depth: float) -> Array:
+    """Return the antiderivative of Omega_xx over x and y at the corners of cells."""
+    turned = np.arctan(y * depth / (x * r)) - np.arctan(y / x)
+    return np.asarray(-(x * np.log(y + r) + depth * turned))
+
+
+def thermal_stress_of(heated: Heated) -> ThermalStress | RestingStress:
+    """Return the thermal stress of a body that moves, or of one at rest."""
+    return ThermalStress(heated) if heated.speed else RestingStress(heated)
