@@ -203,6 +203,14 @@ def test_the_power_of_a_heated_film_becomes_heat(turned):
     np.testing.assert_allclose(other.heat.temperature[inside], mirror[inside], atol=0.01)
 
 
+def test_a_line_that_slides_along_its_axis_gives_its_power_as_heat():
+    turned = {"slide_roll_ratio": 0.8, "sliding_angle": QUARTER, "type": "line"}
+    result = film(points=(257, 1), shear=EYRING, thermal=True, **turned)
+    assert abs(work_error(result)) < 0.01
+    first, second = (result.heat.temperature[layer] for layer in (0, -1))
+    np.testing.assert_allclose(first, second, atol=1e-6)
+
+
 def test_surfaces_that_slide_across_leave_their_heat_beside_the_contact():
     """Each takes it along: surface 1 to +y, surface 2 to -y."""
     heat = film(shear=EYRING, thermal=True, sliding_angle=QUARTER, slide_roll_ratio=1.5).heat

@@ -326,6 +326,8 @@ def _streams(
 ) -> tuple[StreamSource, ...]:
     """Return the source along the paths of a surface; with a full source also that of its centre.
 
+    A line needs none, as nothing changes along y.
+
     Parameters
     ----------
     x, y : Array
@@ -335,7 +337,7 @@ def _streams(
     full : bool
         Whether the full source of the velocity at the centre is summed.
     """
-    if not side.streams or (full and side.spin == 0.0):
+    if y.size == 1 or not side.streams or (full and side.spin == 0.0):
         return ()
     slope = side.across / side.speed
     spins = (side.spin, 0.0) if full else (side.spin,)
