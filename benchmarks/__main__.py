@@ -10,6 +10,7 @@ from pathlib import Path
 from benchmarks import (
     asperities,
     deformation,
+    directions,
     domain,
     line_page,
     mixed,
@@ -38,6 +39,7 @@ TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "touching": touching.tables,
     "pairs": pairs.table,
     "rolling": line_page.tables,
+    "directions": directions.tables,
 }
 BY_DEFAULT = ("speed", "rate", "deformation")
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+import numpy as np
 from tests.solver.test_line import BOX, CITED, in_box, line, named
 from tests.solver.test_line_physics import hot
 
@@ -11,7 +12,7 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Options
-from tehl.operators.upstream import NOTHING, rolling
+from tehl.operators.upstream import Beyond, rolling
 
 POINTS = 2049
 FILMS = f"""
@@ -44,10 +45,11 @@ def section() -> Iterator[str]:
     yield from head("case", "value", "tehl", "reference", "difference")
     for name, cited in CITED["box"].items():
         found = in_box(name, POINTS)
-        x, pressure, film = found.scaled.x, found.scaled.pressure[0], found.scaled.film[0]
+        x, pressure, film = found.scaled.x, found.scaled.pressure, found.scaled.film
         yield compared(name, "central film", found.film_scaled.central, cited["h_central"])
         yield compared(name, "minimum film", found.film_scaled.minimum, cited["h_minimum"])
-        friction = rolling(x, pressure, film, NOTHING)[0]
+        alone = Beyond(*np.zeros((3, 1)))
+        friction = rolling(x, pressure, film, alone, np.ones(1))[0]
         yield compared(name, "rolling friction", friction, cited["rolling"])
     yield UPSTREAM
     yield from head("case", "value", "tehl", "reference", "difference", "error bar")

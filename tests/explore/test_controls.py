@@ -63,6 +63,21 @@ def test_load_and_hertz_pressure_are_the_same_contact():
     assert case_from_tables(case.tables)[0].load == pytest.approx(problem.load, rel=1e-4)
 
 
+@pytest.mark.parametrize("name", ["ball-on-disc", "hypoid", "line", "roller"])
+def test_a_contact_becomes_a_line_a_roller_or_an_ellipse_under_the_same_pressure(name):
+    case, problem, items = controls_of(name)
+    choice = next(item for item in items if item.path == "contact.type")
+    for option in ("point", "line", "roller"):
+        again = CaseText(case.text)
+        choose(again, choice, option)
+        after = case_from_tables(again.tables)[0]
+        assert after.contact.type == option
+        assert after.hertz.pressure == pytest.approx(problem.hertz.pressure, rel=1e-4)
+        shown = {item.path for group in groups(again, after) for item in group.items}
+        assert ("contact.length" in shown) == ("contact.profile" in shown) == (option == "roller")
+        assert ("contact.spin_1" in shown) == (option == "point")
+
+
 def test_radii_of_both_bodies_become_the_reduced_radius():
     case, problem, items = controls_of("ball-on-disc")
     choice = next(item for item in items if item.path == "contact.radius|")

@@ -19,7 +19,8 @@ def random_film(shape, seed=0):
 def stencil_of(mirror, dx=0.25, dy=0.4, third=False, fore=0):
     weights = 1.5 / dx, -2.0 / dx, 0.5 / dx
     third = 1.0 / (3.0 * dx) if third else 0.0
-    return Stencil(1.0 / dx**2, 1.0 / dy**2, *weights, mirror, third=third, fore=fore)
+    sizes = 1.0 / dx**2, 1.0 / dy**2
+    return Stencil(*sizes, *weights, mirror, third=third, fore=fore, logarithmic=0.2)
 
 
 def means(stencil, first, second, along):
@@ -27,8 +28,8 @@ def means(stencil, first, second, along):
     if stencil.third == 0.0:
         return first + second
     geometric = 2.0 * np.sqrt(first * second)
-    logarithmic = (2.0 * geometric + first + second) / 3.0
-    return np.where(second > first, logarithmic, geometric) if along else geometric
+    part = np.where(second > first, 1.0 / 3.0, 0.0) if along else stencil.logarithmic
+    return geometric + part * (first + second - geometric)
 
 
 def operator_twin(film, stencil):

@@ -46,6 +46,7 @@ _UNITS: dict[str, tuple[float, Dimension]] = {
     "-": (1.0, _NONE),
     "%": (0.01, _NONE),
     "rad": (1.0, _NONE),
+    "mrad": (1e-3, _NONE),
     "deg": (math.pi / 180.0, _NONE),
     "°": (math.pi / 180.0, _NONE),
     "K": (1.0, (0, 0, 0, 1)),
@@ -62,7 +63,7 @@ _UNITS: dict[str, tuple[float, Dimension]] = {
 }
 _CELSIUS = ("degC", "°C", "C")
 _ZERO_CELSIUS = 273.15
-_ANGLE_UNITS = ("rad", "deg", "°")
+_ANGLE_UNITS = ("rad", "mrad", "deg", "°")
 
 LONGEST_UNIT = 40
 """Characters of a unit."""
@@ -84,6 +85,8 @@ def is_unit(text: str) -> bool:
     """Whether ``text`` is a unit that quantities may have."""
     if not any(letter.isalpha() or letter == "%" for letter in text):
         return False
+    if _TURNING.fullmatch(text):
+        return True
     try:
         _read_unit(text)
     except ValueError:

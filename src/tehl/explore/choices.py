@@ -12,12 +12,15 @@ from typing import Any
 from tehl.api.problem import ContactProblem
 from tehl.contact.materials import SOLIDS
 from tehl.contact.problem import SURFACES
+from tehl.contact.shape import LINE
 from tehl.estimate.scaling import ScaledProblem
 from tehl.explore.case_text import CaseText, named_table
 from tehl.explore.knobs import Choice, Settings
 from tehl.lubricant.fluid import OILS
 
 OWN = "own values"
+ROLLER_WIDTHS = 15.0
+"""Length of a roller that replaces another contact, over the width of the line contact."""
 _LAWS: dict[str, tuple[str, Any]] = {
     "newtonian": ("Newtonian", {"law": "newtonian"}),
     "eyring": ("Eyring", {"law": "eyring", "stress": "5 MPa"}),
@@ -95,12 +98,52 @@ def speed(state: State) -> Choice:
     return _one_of(state, "speed given as", speeds)
 
 
+def kind(state: State) -> Choice:
+    """Return the choice of point, line or roller, under the same Hertz pressure."""
+    problem, pressure = state.problem, f"{state.problem.hertz.pressure * 1e-9:.5g} GPa"
+    contact, radius = problem.contact, f"{1e3 * problem.radii_of_axes.x:.6g} mm"
+    width = (
+        2.0
+        * LINE.hertz(
+            LINE.load_of_pressure(problem.hertz.pressure, problem.radii, problem.reduced_modulus),
+            problem.radii,
+            problem.reduced_modulus,
+        ).half_width_x
+    )
+    keys = ("load", "load_per_length", "moes_load", "length", "profile", "tilt")
+    point = {f"contact.{key}": None for key in keys} | {"contact.hertz_pressure": pressure}
+    turned = ("radius_x", "radius_y", "entrainment_angle", "spin_1", "spin_2")
+    line = point | {f"contact.{key}": None for key in turned}
+    line |= {"contact.radius": radius} if contact.radii is not None else {}
+    roller: Settings = {"contact.length": f"{1e3 * ROLLER_WIDTHS * width:.3g} mm"}
+    roller |= {"contact.profile": {"shape": "logarithmic"}}
+    options = {
+        "point": ("ball or ellipse", point | {"contact.type": None}),
+        "line": ("line without ends", line | {"contact.type": "line"}),
+        "roller": ("roller", line | roller | {"contact.type": "roller"}),
+    }
+    return _choice("contact.type", "contact", contact.type, options)
+
+
+def roller_profile(state: State) -> Choice | None:
+    """Return the choice of the profile of a roller."""
+    contact = state.problem.contact
+    if contact.type != "roller":
+        return None
+    path = "contact.profile"
+    shapes = {name: {"shape": name} for name in ("logarithmic", "lundberg")}
+    options: dict[str, tuple[str, Settings]] = {"straight": ("straight", {path: None})}
+    options |= _values(path, {name: (name, table) for name, table in shapes.items()})
+    chosen = "straight" if contact.profile is None else contact.profile.shape
+    return _choice(path, "profile", chosen, options)
+
+
 def shape(state: State) -> Choice:
     """Return the choice of how the shape is stated."""
     radii, contact = state.problem.radii_of_axes, state.problem.contact
     x, y = f"{1e3 * radii.x:.6g} mm", f"{1e3 * radii.y:.6g} mm"
     bodies = {"surface_1.radius_x": x, "surface_1.radius_y": y}
-    if math.isclose(radii.x, radii.y, rel_tol=1e-6):
+    if contact.has_lines or math.isclose(radii.x, radii.y, rel_tol=1e-6):
         bodies = {"surface_1.radius": x}
     keys = [
         f"{table}.radius{axis}" for table in ("contact", *SURFACES) for axis in ("", "_x", "_y")
@@ -109,8 +152,10 @@ def shape(state: State) -> Choice:
     options = {
         "bodies": ("radii of both", without | bodies | {"surface_2.radius": "inf"}),
         "circle": ("reduced radius", without | {"contact.radius": x}),
-        "ellipse": ("two reduced radii", without | {"contact.radius_x": x, "contact.radius_y": y}),
     }
+    if not contact.has_lines:
+        both = {"contact.radius_x": x, "contact.radius_y": y}
+        options["ellipse"] = ("two reduced radii", without | both)
     chosen = "circle" if contact.radius else "ellipse" if contact.radius_x is not None else "bodies"
     return _choice("contact.radius|", "shape given by", chosen, options)
 

@@ -104,7 +104,24 @@ def _in_own_table(state: State, path: str) -> bool:
 
 def _is_ellipse(state: State, _: str) -> bool:
     radii = state.problem.radii_of_axes
-    return not state.problem.contact.is_line and radii.x != radii.y
+    return not _is_rolled(state) and radii.x != radii.y
+
+
+def _is_rolled(state: State, _: str = "") -> bool:
+    """Return whether it is a line contact or a roller."""
+    return state.problem.contact.has_lines
+
+
+def _is_roller(state: State, _: str) -> bool:
+    return state.problem.contact.type == "roller"
+
+
+def _is_point(state: State, _: str) -> bool:
+    return not _is_rolled(state)
+
+
+def _slides(state: State, _: str) -> bool:
+    return state.problem.slide_roll_ratio != 0.0
 
 
 def _is_heated(state: State, _: str) -> bool:
@@ -192,6 +209,7 @@ def _surface(number: int) -> tuple[Item, ...]:
 _LAW, _SHEAR = "lubricant.viscosity", "lubricant.shear"
 _radius = partial(Row, units="mm;m", span=(1e-4, 5.0))
 _inlet = partial(_even, units="degC;K", span=(253.15, 433.15), otherwise="inlet_temperature")
+_ANGLE, _SPINS = ("deg", (-0.5 * math.pi, 0.5 * math.pi)), (-3000.0, 3000.0)
 _OPEN = ("Load and speed", "Bodies and geometry", "Oil")
 _GROUPS: dict[str, tuple[Item, ...]] = {
     "Load and speed": (
@@ -205,20 +223,27 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
         Row("contact.entrainment_speed", "entrainment speed", "m/s;mm/s", "entrainment speed"),
         _even("contact.slide_roll_ratio", "slide-to-roll ratio", "", (-2.0, 2.0)),
     ),
+    "Direction and spin": (
+        _even("contact.entrainment_angle", "direction of entrainment", *_ANGLE, when=_is_ellipse),
+        _even("contact.sliding_angle", "direction of sliding", *_ANGLE, when=_slides),
+        *(
+            _even(
+                f"contact.spin_{number}", f"spin of body {number}", "rpm;rad/s", _SPINS, _is_point
+            )
+            for number in (1, 2)
+        ),
+    ),
     "Bodies and geometry": (
         *_solid(1),
         *_solid(2),
+        choices.kind,
+        Row("contact.length", "length of the roller", "mm;m", (1e-3, 0.2), _is_roller),
+        _even("contact.tilt", "tilt of the roller", "mrad;deg", (0.0, 5e-3), _is_roller),
+        choices.roller_profile,
         choices.shape,
         _radius("contact.radius", "reduced radius R"),
         _radius("contact.radius_x", "reduced radius R_x, along entrainment"),
         _radius("contact.radius_y", "reduced radius R_y, across entrainment"),
-        _even(
-            "contact.entrainment_angle",
-            "angle of entrainment to R_x",
-            "deg",
-            (-0.5 * math.pi, 0.5 * math.pi),
-            when=_is_ellipse,
-        ),
         *(
             _radius(
                 f"surface_{number}.radius{axis}", f"radius{axis.replace('_', ' ')} of body {number}"

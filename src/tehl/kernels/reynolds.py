@@ -7,10 +7,12 @@ With mobility and density frozen in ``eps`` and ``rho`` the steady Reynolds equa
 with central differences of second order, the conductance of a face being the mean of both nodes,
 and an upstream difference of the wedge (Venner and Lubrecht 2000, chapter 6). Where the wedge is of
 third order the mean is geometric: the conductance varies exponentially with the pressure, by
-factors from node to node. Where the surfaces spin the wedge is (u rho h)_x + (v rho h)_y / kappa
-with u(y) and v(x), each upstream by its sign (docs/theory/directions.md). With ``mirror`` row 0 is
-the symmetry line y = 0; otherwise it is an edge with p = 0. Fields are those of
-`tehl.kernels.properties`.
+factors from node to node. Where oil flows obliquely it is logarithmic along y: by a geometric mean
+less flows out through a face the more the pressure falls, beyond 2/alpha, and relaxation at the
+steep side of a turned ellipse hardly converges. Where the surfaces spin the wedge is
+(u rho h)_x + (v rho h)_y / kappa with u(y) and v(x), each upstream by its sign
+(docs/theory/directions.md). With ``mirror`` row 0 is the symmetry line y = 0; otherwise it is an
+edge with p = 0. Fields are those of `tehl.kernels.properties`.
 """
 
 from math import sqrt
@@ -47,7 +49,9 @@ class Stencil(NamedTuple):
     ``third`` is zero, or 1/3 of ``1/dx``: the weight of the third difference that makes a wedge of
     second order one of third order, with geometric means of the conductance. From column ``fore``
     on, behind the centre, half of it is added: all of it overshoots at the pressure spike.
-    Relaxation keeps the wedge of second order, which has the larger diagonal.
+    ``logarithmic`` is the part of the arithmetic mean beside the geometric one along y: a third
+    makes it a logarithmic one. Relaxation keeps the wedge of second order, which has the larger
+    diagonal.
     """
 
     cx: float
@@ -59,6 +63,7 @@ class Stencil(NamedTuple):
     conserves: int = 0
     third: float = 0.0
     fore: int = 0
+    logarithmic: float = 0.0
 
 
 @helper
@@ -84,9 +89,10 @@ def inner_end(ny: int, mirror: int) -> int:
 
 @helper
 def both(stencil: Stencil, here: float, there: float) -> float:
-    """Return twice the conductance of the face between two nodes."""
+    """Return twice the conductance of the face between two nodes of a column."""
     if stencil.third > 0.0:
-        return 2.0 * sqrt(here * there)
+        geometric = 2.0 * sqrt(here * there)
+        return geometric + stencil.logarithmic * (here + there - geometric)
     return here + there
 
 

@@ -208,7 +208,8 @@ def jacobian(
         if stencil.third == 0.0:
             opening = opening + rows(pressed) @ (there + n.here)
         else:  # of the secant conductance: the tangent one differs where the film thins
-            here, beyond = _slopes(n.here @ film.eps.ravel(), there @ film.eps.ravel(), way)
+            both = n.here @ film.eps.ravel(), there @ film.eps.ravel()
+            here, beyond = _slopes(stencil, *both, way)
             opening = opening + rows(pressed * beyond) @ there + rows(pressed * here) @ n.here
     # wedge rho H: rho by the film, drho/dP H by the pressure
     thicker, denser = film.rho.ravel(), (film.drho * film.h).ravel()
@@ -236,20 +237,22 @@ def _both(stencil: Stencil, here: Array, there: Array, way: int) -> Array:
     if stencil.third == 0.0:
         return there + here
     geometric = 2.0 * np.sqrt(here * there)
-    rises = way * (there - here) > 0.0
-    return np.where(rises, geometric + (here + there - geometric) / 3.0, geometric)
+    return geometric + _arithmetic(stencil, here, there, way) * (here + there - geometric)
 
 
-def _slopes(here: Array, there: Array, way: int) -> tuple[Array, Array]:
+def _arithmetic(stencil: Stencil, here: Array, there: Array, way: int) -> Array:
+    """Return the part of the arithmetic mean beside the geometric one."""
+    rises = np.where(way * (there - here) > 0.0, 1.0 / 3.0, 0.0)
+    return rises if way else np.full(here.shape, stencil.logarithmic)
+
+
+def _slopes(stencil: Stencil, here: Array, there: Array, way: int) -> tuple[Array, Array]:
     """Return the derivatives of twice a conductance of third order by those of both nodes."""
-    rises = way * (there - here) > 0.0
+    part = _arithmetic(stencil, here, there, way)
     inside = (here > 0.0) & (there > 0.0)  # rows of edge nodes are zero
     ratio = np.sqrt(np.where(inside, there, 1.0) / np.where(inside, here, 1.0))
     first, second = ratio, 1.0 / ratio
-    return (
-        np.where(rises, (2.0 * first + 1.0) / 3.0, first),
-        np.where(rises, (2.0 * second + 1.0) / 3.0, second),
-    )
+    return first + part * (1.0 - first), second + part * (1.0 - second)
 
 
 def flux_difference(

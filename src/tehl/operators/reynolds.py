@@ -27,7 +27,13 @@ INFLUENCE_NODES = 8
 
 
 def steady_stencil(
-    grid: Grid, groups: Groups, wedge_order: int, *, conserves: bool = False, speed: float = 1.0
+    grid: Grid,
+    groups: Groups,
+    wedge_order: int,
+    *,
+    conserves: bool = False,
+    speed: float = 1.0,
+    oblique: bool = False,
 ) -> Stencil:
     """Return the weights of the steady operator: central Poiseuille term, upstream wedge.
 
@@ -39,11 +45,13 @@ def steady_stencil(
         The ellipticity scales the differences along y.
     wedge_order : {1, 2, 3}
         Order of the upstream difference: (1, -1), (3/2, -2, 1/2) or (2, 3, -6, 1)/6 over dx, the
-        last with geometric means of the conductance.
+        last with geometric means of the conductance, logarithmic ones along y if it is oblique.
     conserves : bool
         Whether oil is conserved in cavities.
     speed : float
         Entrainment speed over that of the contact [-].
+    oblique : bool
+        Whether oil flows at an angle to the axes of the contact, or the surfaces spin.
     """
     weights = UPSTREAM[min(wedge_order, 2)]
     w0, w1, w2 = (speed * w / grid.dx for w in weights)
@@ -57,6 +65,7 @@ def steady_stencil(
         conserves=STEADILY if conserves else 0,
         third=speed / (3.0 * grid.dx) if wedge_order > 2 else 0.0,
         fore=int(np.searchsorted(grid.x, 0.0)),
+        logarithmic=1.0 / 3.0 if oblique else 0.0,
     )
 
 
@@ -86,17 +95,20 @@ def entrainment(grid: Grid, scaled: ScaledProblem) -> Entrainment:
 
 
 def conductance(stencil: Stencil, here: Array, there: Array) -> Array:
-    """Return the conductance of the faces between pairs of nodes.
+    """Return the conductance of the faces between pairs of nodes of columns.
 
     Parameters
     ----------
     stencil : Stencil
-        Takes the geometric mean if the wedge has third order, the arithmetic one otherwise.
+        Decides the mean, as `tehl.kernels.reynolds` has it.
     here, there : Array
         eps = rho H^3/(eta lambda) [-] at the nodes on both sides of each face, of one shape.
     """
-    found: Array = np.sqrt(here * there) if stencil.third > 0.0 else 0.5 * (here + there)
-    return found
+    arithmetic: Array = 0.5 * (here + there)
+    if stencil.third == 0.0:
+        return arithmetic
+    geometric: Array = np.sqrt(here * there)
+    return geometric + stencil.logarithmic * (arithmetic - geometric)
 
 
 def step_stencil(stencil: Stencil, time_step: float) -> Stencil:

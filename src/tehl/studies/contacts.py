@@ -32,41 +32,49 @@ TEMPLATE = "ball-on-disc"
 
 ROW_SECONDS = 60.0
 """Time after which no finer grid is started for a contact, if it states none."""
-_WORDS = {
-    "contact.type": "type contact_type",
-    "contact.load": "load force normal_load normal_force ball_load w q f_n",
-    "contact.load_per_length": "load_per_length line_load unit_load specific_load w_l",
-    "contact.hertz_pressure": "p_h ph p_hertz p0 p_0 hertz_pressure hertzian_pressure",
-    "contact.entrainment_speed": "u_m u speed entrainment_speed entrainment mean_speed "
-    "entraining_speed rolling_speed",
-    "contact.slide_roll_ratio": "srr slip slide_roll_ratio slide_to_roll_ratio",
-    "contact.entrainment_angle": "entrainment_angle angle",
-    "contact.radius": "radius r reduced_radius",
-    "contact.radius_x": "r_x rx radius_x reduced_radius_x",
-    "contact.radius_y": "r_y ry radius_y reduced_radius_y",
-    "lubricant.temperature": "temperature oil_temperature inlet_temperature lube_temp t_oil t",
-    "lubricant.oil": "oil lubricant",
-    "lubricant.viscosity.nu_40": "nu_40 nu40 kv40 kv_40 viscosity_40",
-    "lubricant.viscosity.nu_100": "nu_100 nu100 kv100 kv_100 viscosity_100",
-    "lubricant.viscosity.eta_0": "eta_0 eta eta0 viscosity dynamic_viscosity",
-    "lubricant.viscosity.alpha": "alpha pressure_viscosity_coefficient",
-    "supply.ratio": "supply_ratio",
-    "numerics.error": "error accuracy",
-    "title": "title name contact position id no number nr",
-} | {
-    f"surface_{side}.{key}": " ".join(f"{word}_{side} {word}{side}" for word in words.split())
-    for side in (1, 2)
-    for key, words in {
-        "rms_roughness": "rms_roughness sq rq sigma",
-        "ra_roughness": "ra_roughness ra sa",
-        "material": "material solid",
-        "radius": "radius r",
-        "radius_x": "radius_x r_x rx",
-        "radius_y": "radius_y r_y ry",
-        "temperature": "temperature t",
-        "thermal_resistance": "thermal_resistance r_th rth",
-    }.items()
-}
+_WORDS = (
+    {
+        "contact.type": "type contact_type",
+        "contact.load": "load force normal_load normal_force ball_load w q f_n",
+        "contact.load_per_length": "load_per_length line_load unit_load specific_load w_l",
+        "contact.hertz_pressure": "p_h ph p_hertz p0 p_0 hertz_pressure hertzian_pressure",
+        "contact.entrainment_speed": "u_m u speed entrainment_speed entrainment mean_speed "
+        "entraining_speed rolling_speed",
+        "contact.slide_roll_ratio": "srr slip slide_roll_ratio slide_to_roll_ratio",
+        "contact.entrainment_angle": "entrainment_angle angle",
+        "contact.sliding_angle": "sliding_angle skew_angle",
+        "contact.length": "length roller_length effective_length l_we",
+        "contact.tilt": "tilt misalignment",
+        "contact.profile.shape": "profile roller_profile",
+        "contact.radius": "radius r reduced_radius",
+        "contact.radius_x": "r_x rx radius_x reduced_radius_x",
+        "contact.radius_y": "r_y ry radius_y reduced_radius_y",
+        "lubricant.temperature": "temperature oil_temperature inlet_temperature lube_temp t_oil t",
+        "lubricant.oil": "oil lubricant",
+        "lubricant.viscosity.nu_40": "nu_40 nu40 kv40 kv_40 viscosity_40",
+        "lubricant.viscosity.nu_100": "nu_100 nu100 kv100 kv_100 viscosity_100",
+        "lubricant.viscosity.eta_0": "eta_0 eta eta0 viscosity dynamic_viscosity",
+        "lubricant.viscosity.alpha": "alpha pressure_viscosity_coefficient",
+        "supply.ratio": "supply_ratio",
+        "numerics.error": "error accuracy",
+        "title": "title name contact position id no number nr",
+    }
+    | {
+        f"surface_{side}.{key}": " ".join(f"{word}_{side} {word}{side}" for word in words.split())
+        for side in (1, 2)
+        for key, words in {
+            "rms_roughness": "rms_roughness sq rq sigma",
+            "ra_roughness": "ra_roughness ra sa",
+            "material": "material solid",
+            "radius": "radius r",
+            "radius_x": "radius_x r_x rx",
+            "radius_y": "radius_y r_y ry",
+            "temperature": "temperature t",
+            "thermal_resistance": "thermal_resistance r_th rth",
+        }.items()
+    }
+    | {f"contact.spin_{side}": f"spin_{side} omega_{side}" for side in (1, 2)}
+)
 NO_WORDS: Mapping[str, str] = {}
 _KEYS = {word: key for key, words in _WORDS.items() for word in words.split()}
 """Keys of the case by words of headings."""

@@ -16,6 +16,7 @@ from tehl.contact.moment import Moment
 from tehl.contact.options import Options
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
+from tehl.estimate.spin import spin_number
 from tehl.estimate.starvation import EnteringOil, entering_oil, supplied_film
 from tehl.kernels import reynolds
 from tehl.operators.deformation import Deformation, choose
@@ -115,7 +116,12 @@ class Equations:
             groups=groups,
             flow=flow,
             stencil=steady_stencil(
-                grid, groups, options.order, conserves=conserves, speed=moment.speed
+                grid,
+                groups,
+                options.order,
+                conserves=conserves,
+                speed=moment.speed,
+                oblique=groups.twist != 0.0 or spin_number(scaled) != 0.0,
             ),
             influence=influence_of(grid, groups),
             deformation=choose(
