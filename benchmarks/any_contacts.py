@@ -24,6 +24,8 @@ RATIOS = {"circle": (1.0, 1.0), "ellipse": (0.3, 50.0), "angle": (1.2, 9.0)}
 """R_y / R_x: up to a_y/a_x of about 12, and 4 at an angle."""
 LENGTHS = (5.0, 40.0)
 """Lengths of rollers over the width of their contacts."""
+CROWNS = (2.0, 10.0)
+"""Drop of a crowned roller at its ends, over b^2/R: with less an end presses as a sharp edge."""
 SLIDING, ACROSS, SPINNING, LARGEST_SPIN = 0.6, 0.2, 0.2, 0.5
 """How often surfaces slide, also across, or spin; and the largest spin of both over u_m / a_x."""
 FEATURES = {
@@ -111,7 +113,7 @@ def _roller(rng: np.random.Generator, tables: dict[str, Any]) -> None:
     shapes: tuple[dict[str, Any], ...] = (
         {"shape": "logarithmic"},
         {"shape": "lundberg"},
-        {"shape": "crown", "radius": 0.125 * length**2 / (drop * between(rng, (0.1, 2.0)))},
+        {"shape": "crown", "radius": 0.125 * length**2 / (drop * between(rng, CROWNS))},
         {"shape": "iso-16281", "diameter": 2.0 * stated["radius"]},
     )
     stated |= {"length": length, "profile": shapes[int(rng.integers(len(shapes)))]}

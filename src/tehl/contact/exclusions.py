@@ -80,10 +80,16 @@ def check_spin(problem: PointContact) -> None:
             problem.contact.has_lines,
             "the speed changes along a line",
         ),
-        "transient": (problem.transient is not None, "heights and films move along x alone"),
-        "contact_film": (problem.contact_film is not None, "oil is conserved along x alone"),
-        "supply": (problem.conserves_oil, "oil in cavities is conserved along x alone"),
-        "dynamics": (problem.dynamics is not None, "moving films are linearised along x alone"),
+        "transient": (problem.transient is not None, "so far films move along x alone"),
+        "contact_film": (problem.contact_film is not None, "so far oil is conserved along x alone"),
+        "supply" if problem.supply is not None else "cavitation": (
+            problem.conserves_oil,
+            "so far oil in cavities is conserved along x alone",
+        ),
+        "dynamics": (
+            problem.dynamics is not None,
+            "so far moving films are linearised along x alone",
+        ),
     }
     for name, (is_stated, why) in excluded.items():
         if is_stated:
