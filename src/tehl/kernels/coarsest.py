@@ -18,7 +18,6 @@ from tehl.kernels.reynolds import CLOSED, STEADILY, Stencil, flux_weights, inner
 
 # part of a change of the pressure that asperities take by the film it moves
 NEGLIGIBLE_COARSE_PART = 1e-6
-LARGEST_OWN = 700  # nodes of a roller's coarsest grid from which LAPACK is faster
 HERE, EAST, WEST, NORTH, SOUTH, FAR, ASIDE = range(7)
 SLOTS = 7
 """Neighbours of a node, itself included."""
@@ -110,8 +109,6 @@ def newton_step(state: Coarse, stencil: Stencil, system: CoarseSystem, longest: 
     )
     flat = Coarse._make(field.ravel() for field in state)
     flags = system._replace(residual=system.residual.ravel(), frozen=system.frozen.ravel())
-    if not (stencil.mirror >= CLOSED and nodes > LARGEST_OWN):
-        return solve_step(flat, stencil, flags, work, (nx, longest))
     count = fill_step(flat, stencil, flags, work, nx)
     free = slice(count + 1)
     try:
@@ -119,37 +116,6 @@ def newton_step(state: Coarse, stencil: Stencil, system: CoarseSystem, longest: 
     except np.linalg.LinAlgError:
         work.rhs[free] = np.nan
     return take_step(flat, flags, work, count, longest)
-
-
-@helper
-def _pivot_row(a: Array, b: Array, k: int, n: int) -> None:
-    """Swap row ``k`` with the row below that has the largest entry in column ``k``."""
-    pivot = k
-    for i in range(k + 1, n):
-        if abs(a[i, k]) > abs(a[pivot, k]):
-            pivot = i
-    for c in range(k, n):
-        a[k, c], a[pivot, c] = a[pivot, c], a[k, c]
-    b[k], b[pivot] = b[pivot], b[k]
-
-
-@helper
-def _solve_dense(a: Array, b: Array, n: int) -> None:
-    """Solve ``a x = b`` for ``n`` unknowns by elimination with row pivoting; ``b`` becomes x.
-
-    A singular matrix gives non-finite values.
-    """
-    for k in range(n):
-        _pivot_row(a, b, k, n)
-        for i in range(k + 1, n):
-            factor = a[i, k] / a[k, k]
-            for c in range(k + 1, n):
-                a[i, c] -= factor * a[k, c]
-            b[i] -= factor * b[k]
-    for k in range(n - 1, -1, -1):
-        b[k] /= a[k, k]
-        for i in range(k):
-            b[i] -= a[i, k] * b[k]
 
 
 @helper
@@ -370,9 +336,18 @@ def _assemble(
     work.rhs[count] = system.missing_load
 
 
-@helper
-def _fill(state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, nx: int) -> int:
-    """Fill the system of a step; return the number of free nodes."""
+@kernel
+def fill_step(state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, nx: int) -> int:
+    """Fill the system of a step; return the number of free nodes.
+
+    Parameters
+    ----------
+    state, stencil, system, work : Coarse, Stencil, CoarseSystem, Work
+        As of `newton_step`, on flat fields.
+    nx : int
+        Nodes per row.
+    """
+    state, system, work = raw((state, system, work))
     count = _find_free(state, system, stencil.mirror, nx, work.free)
     if state.stiffness.shape[0] > 0:
         count = _find_carrying(state, system, (stencil.mirror, nx), work)
@@ -380,9 +355,18 @@ def _fill(state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, nx:
     return count
 
 
-@helper
-def _take(state: Coarse, system: CoarseSystem, work: Work, count: int, longest: float) -> float:
-    """Take the solved step, no longer than stated; return the change of the rigid approach."""
+@kernel
+def take_step(state: Coarse, system: CoarseSystem, work: Work, count: int, longest: float) -> float:
+    """Take a solved step; return the change of the rigid approach.
+
+    Parameters
+    ----------
+    state, system, work : Coarse, CoarseSystem, Work
+        As of `newton_step`; the right-hand side is the step.
+    count, longest : int, float
+        Free nodes, and largest change of a pressure [-].
+    """
+    state, system, work = raw((state, system, work))
     touches, most = state.stiffness.shape[0] > 0, 0.0
     for row in range(count):
         most = max(most, abs(work.rhs[row]))
@@ -396,45 +380,3 @@ def _take(state: Coarse, system: CoarseSystem, work: Work, count: int, longest: 
             continue
         state.p[here] = max(state.p[here] + scale * work.rhs[row], 0.0)
     return scale * work.rhs[count]
-
-
-@kernel
-def solve_step(
-    state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, settings: tuple[int, float]
-) -> float:
-    """Take the step of `newton_step` on flat fields; ``settings``: nodes per row, longest step."""
-    nx, longest = settings
-    state, system, work = raw((state, system, work))
-    count = _fill(state, stencil, system, work, nx)
-    _solve_dense(work.matrix, work.rhs, count + 1)
-    return _take(state, system, work, count, longest)
-
-
-@kernel
-def fill_step(state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, nx: int) -> int:
-    """Fill the system of a step; return the number of free nodes.
-
-    Parameters
-    ----------
-    state, stencil, system, work : Coarse, Stencil, CoarseSystem, Work
-        As of `solve_step`.
-    nx : int
-        Nodes per row.
-    """
-    state, system, work = raw((state, system, work))
-    return _fill(state, stencil, system, work, nx)
-
-
-@kernel
-def take_step(state: Coarse, system: CoarseSystem, work: Work, count: int, longest: float) -> float:
-    """Take a solved step; return the change of the rigid approach.
-
-    Parameters
-    ----------
-    state, system, work : Coarse, CoarseSystem, Work
-        As of `solve_step`; the right-hand side is the step.
-    count, longest : int, float
-        Free nodes, and largest change of a pressure [-].
-    """
-    state, system, work = raw((state, system, work))
-    return _take(state, system, work, count, longest)

@@ -96,7 +96,7 @@ ISOTHERMAL = (
             **_axes(1, *coarsest.Coarse._fields, *coarsest.Work._fields, "residual", "frozen")
             | _axes(2, "matrix"),
         )
-        for step in (coarsest.solve_step, coarsest.fill_step, coarsest.take_step)
+        for step in (coarsest.fill_step, coarsest.take_step)
     ),
     _sample(summation.spread_columns, 0.9),
     _sample(summation.spread_rows, 0.7),

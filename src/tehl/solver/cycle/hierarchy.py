@@ -1,7 +1,6 @@
 """The grids of a contact, coarsest first, the cycle on them, and the solver of the coarsest one."""
 
 from collections.abc import Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -83,7 +82,7 @@ class CoarsestSolver:
             nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
         )
         before = level.film.p.copy(), level.film.asperity.copy()
-        with one_thread() if level.grid.is_closed else nullcontext():
+        with one_thread():
             change = newton_step(linearised(level), stencil, system, LONGEST_STEP)
         level.move(change)
         if laws is not None:
