@@ -118,6 +118,7 @@ class GridIteration:
             strategy=self.strategy,
             roughness=self.roughness,
             damping=self.coupling.damping,
+            is_heated=self.coupling.state is not None,
         )
 
     def _most_steps(self, levels: Sequence[Level], method: Cycles) -> int:

@@ -68,6 +68,8 @@ class Visit:
     roughness: Roughness
     damping: float
     """Of heat and shear thinning [-]."""
+    is_heated: bool
+    """Heat or shear thinning have begun."""
 
     @property
     def fine(self) -> Level:
@@ -93,7 +95,7 @@ class Visit:
 
 
 class Cycles:
-    """Multigrid cycles, between rough surfaces combined with earlier ones."""
+    """Multigrid cycles, combined with earlier ones where they converge slowly."""
 
     steady = 0.0
     """Mean change of the pressure that ends the cycles without a comparable coarser grid [-]."""
@@ -105,7 +107,10 @@ class Cycles:
         self.step: Callable[[], object] = self.cycle
         if visit.damping < 1.0:
             memory = min(memory, DAMPED_MEMORY)
-        combines = visit.is_rough or (fine.share.combines and not fine.cavity.is_balanced)
+        is_damped = visit.is_heated and not visit.roughness.is_rough
+        combines = visit.is_rough or (
+            (fine.share.combines or is_damped) and not fine.cavity.is_balanced
+        )
         self.anderson = Anderson(memory) if memory and combines else None
         self.before = np.zeros(0)
 
@@ -115,7 +120,7 @@ class Cycles:
         ``doublings``: of the cycles, where temperatures converge slowly.
         """
         most = max(MOST_CYCLES << doublings, self.visit.fine.cavity.most_cycles)
-        return MOST_COMBINED if self.anderson and not self.visit.is_rough else most
+        return MOST_COMBINED if self.anderson and self.visit.fine.share.combines else most
 
     def begin(self) -> None:
         """Note the state before a step."""

@@ -1,0 +1,62 @@
+"""The strategies of the ladder: what they combine, and what it saves."""
+
+from dataclasses import replace
+
+import pytest
+
+from tehl.api.problem import case_from_tables
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.scaling import ScaledProblem
+from tehl.solver import steady
+from tehl.solver.cycle.ladder import ladder
+from tehl.solver.monitor import SILENT
+
+OPTIONS = Options(extrapolate=True)
+NODES = 193
+
+
+@pytest.fixture(scope="module")
+def hybrid_bearing() -> ContactProblem:
+    """A ball on the inner ring of a hybrid bearing, M = 9200, whose oil thins by shear."""
+    tables = {
+        "contact": {
+            "hertz_pressure": "2.0 GPa",
+            "entrainment_speed": "2.0 m/s",
+            "slide_roll_ratio": 0.01,
+        },
+        "surface_1": {"material": "silicon-nitride", "radius": "6 mm"},
+        "surface_2": {"material": "steel", "radius_x": "16 mm", "radius_y": "-6.24 mm"},
+        "lubricant": {
+            "viscosity": {"law": "barus", "eta_0": "8 mPa s", "alpha": "18 1/GPa"},
+            "density": {"law": "dowson-higginson", "rho_0": "880 kg/m^3"},
+            "shear": {"law": "eyring", "stress": "6 MPa"},
+        },
+    }
+    return case_from_tables(tables)[0]
+
+
+def test_damped_strategies_combine_cycles_with_a_wedge_of_third_order_alone(
+    hybrid_bearing: ContactProblem,
+) -> None:
+    rungs = ladder(ScaledProblem.of(hybrid_bearing), OPTIONS, rough=False)
+    damped = [one for one in rungs if one.damping < 1.0]
+    assert damped[0].memory > 0
+    assert all(one.memory == 0 for one in damped if one.wedge_order == 2)
+
+
+def test_combined_cycles_are_fewer_and_give_the_same_film(
+    hybrid_bearing: ContactProblem, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rungs = ladder(ScaledProblem.of(hybrid_bearing), OPTIONS, rough=False)
+    steep = next(one for one in rungs if one.damping < 1.0)
+    cycles, films = [], []
+    for memory in (0, steep.memory):
+        one = replace(steep, memory=memory)
+        monkeypatch.setattr(steady, "ladder", lambda *_, one=one, **__: (one,))
+        options = OPTIONS.on_points(NODES, NODES // 2 + 1)
+        found = steady.try_strategies(hybrid_bearing, options, monitor=SILENT, rough=False)[1]
+        cycles.append(sum(NODES in report.points for report in found.history))
+        films.append(found.film_scaled.minimum)
+    assert cycles[1] <= 0.75 * cycles[0]
+    assert films[1] == pytest.approx(films[0], rel=2e-3)
