@@ -208,8 +208,8 @@ class BodyStress(_ReadOnly):
     left_out: Array
     """(): 1 where the shear stress of the film is more than any oil can carry: it is left out."""
     thermal: Array
-    """(n,): E alpha dT/(1 - nu) of the warmest place of the surface, if heat counts [Pa]; zero if
-    it does not, or the body is too slow."""
+    """(n,): Largest compression along the surface by heat, if it counts [Pa]; zero if it does not,
+    or the body is too slow."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

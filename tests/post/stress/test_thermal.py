@@ -183,7 +183,8 @@ def test_resting_surfaces_are_stressed_and_of_slow_ones_the_remark_states_what_i
     numbers = stress_numbers(found)
     rise = film.heat.temperature[-slow].max() - film.scales.temperature
     if ratio == 2.0:
-        assert found.stress.thermal[slow] == pytest.approx(UNIT * rise, rel=0.03)
+        half = 0.5 * (1.0 - STEEL.poisson_ratio) * UNIT * rise
+        assert found.stress.thermal[slow] == pytest.approx(half, rel=0.1)
         assert not numbers.too_slow
         return
     assert found.stress.thermal[slow] == 0.0

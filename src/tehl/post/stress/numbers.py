@@ -86,7 +86,8 @@ class BodyNumbers:
     traction: float
     """Force of the film on the body along x over the load [-]."""
     thermal: float | None
-    """E alpha dT/(1 - nu) of the warmest place of its surface [Pa]; None if heat does not count."""
+    """Largest compression along its surface by heat [Pa], E alpha dT/(1 - nu) if it moves; None if
+    heat does not count."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -54,9 +54,14 @@ class Heated(NamedTuple):
 
     @property
     def surface_stress(self) -> float:
-        """Return E alpha dT/(1 - nu) of the largest rise of the surface [Pa]."""
+        """Return the largest compression along the surface [Pa].
+
+        E alpha dT/(1 - nu) of the largest rise; at rest that of `RestingStress`, about half of it.
+        """
+        if not self.speed:
+            return float(-RestingStress(self).stresses(0.0)[:2].min())
         expansion = self.solid.expansion or 0.0
-        rise = float(thermal_stress_of(self).temperature(0.0).max())
+        rise = float(ThermalStress(self).temperature(0.0).max())
         return self.solid.young_modulus * expansion * rise / (1.0 - self.solid.poisson_ratio)
 
 
