@@ -14,7 +14,8 @@ from tehl.cli import application
 from tehl.studies import Store
 from tehl.studies.answers import answers, values_of
 from tehl.studies.case import Case
-from tehl.studies.contacts import _column, read_contacts, tables_of
+from tehl.studies.contacts import read_contacts, tables_of
+from tehl.studies.headings import column_of
 
 COARSE = """
 [contact]
@@ -74,7 +75,7 @@ def command(*words):
     ],
 )
 def test_headings_are_read_in_every_usual_spelling(heading, key, unit):
-    column = _column(heading)
+    column = column_of(heading)
     assert (column.key, column.unit) == (key, unit)
 
 

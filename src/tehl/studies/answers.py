@@ -14,13 +14,8 @@ from tehl.base.wording import grid_size
 from tehl.result.quantity import Quantity
 from tehl.result.registry import shown_in
 from tehl.studies.case import Row
-from tehl.studies.contacts import (
-    Column,
-    Contacts,
-    Listed,
-    contacts_of,
-    template_tables,
-)
+from tehl.studies.contacts import Contacts, Listed, contacts_of, template_tables
+from tehl.studies.headings import Column
 from tehl.studies.runner import QUIET, StudyMonitor, run
 from tehl.studies.store import Store, opened
 

@@ -6,79 +6,33 @@ What a row does not state is that of the template.
 """
 
 import copy
-import difflib
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.problem import case_from_tables
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
-from tehl.base.keys import key_paths
 from tehl.base.lists import check_package, lines_of_sheet, numbered_lines, stripped
-from tehl.base.units import is_unit
-from tehl.contact.options import Options
 from tehl.io.case import from_name, plain_value, tables_of_text, toml_tables
 from tehl.io.templates import template_text
 from tehl.studies.case import Case
+from tehl.studies.headings import NO_WORDS, Column, are_units, check_columns, column_of, unit_of
 
 if TYPE_CHECKING:
     import pandas as pd
 
+
 TEMPLATE = "ball-on-disc"
 """The template of a list that has none."""
-
 ROW_SECONDS = 60.0
 """Time after which no finer grid is started for a contact, if it states none."""
-_WORDS = (
-    {
-        "contact.type": "type contact_type",
-        "contact.load": "load force normal_load normal_force ball_load w q f_n",
-        "contact.load_per_length": "load_per_length line_load unit_load specific_load w_l",
-        "contact.hertz_pressure": "p_h ph p_hertz p0 p_0 hertz_pressure hertzian_pressure",
-        "contact.entrainment_speed": "u_m u speed entrainment_speed entrainment mean_speed "
-        "entraining_speed rolling_speed",
-        "contact.slide_roll_ratio": "srr slip slide_roll_ratio slide_to_roll_ratio",
-        "contact.entrainment_angle": "entrainment_angle angle",
-        "contact.sliding_angle": "sliding_angle skew_angle",
-        "contact.length": "length roller_length effective_length l_we",
-        "contact.tilt": "tilt misalignment",
-        "contact.profile.shape": "profile roller_profile",
-        "contact.radius": "radius r reduced_radius",
-        "contact.radius_x": "r_x rx radius_x reduced_radius_x",
-        "contact.radius_y": "r_y ry radius_y reduced_radius_y",
-        "lubricant.temperature": "temperature oil_temperature inlet_temperature lube_temp t_oil t",
-        "lubricant.oil": "oil lubricant",
-        "lubricant.viscosity.nu_40": "nu_40 nu40 kv40 kv_40 viscosity_40",
-        "lubricant.viscosity.nu_100": "nu_100 nu100 kv100 kv_100 viscosity_100",
-        "lubricant.viscosity.eta_0": "eta_0 eta eta0 viscosity dynamic_viscosity",
-        "lubricant.viscosity.alpha": "alpha pressure_viscosity_coefficient",
-        "supply.ratio": "supply_ratio",
-        "numerics.error": "error accuracy",
-        "title": "title name contact position id no number nr",
-    }
-    | {
-        f"surface_{side}.{key}": " ".join(f"{word}_{side} {word}{side}" for word in words.split())
-        for side in (1, 2)
-        for key, words in {
-            "rms_roughness": "rms_roughness sq rq sigma",
-            "ra_roughness": "ra_roughness ra sa",
-            "material": "material solid",
-            "radius": "radius r",
-            "radius_x": "radius_x r_x rx",
-            "radius_y": "radius_y r_y ry",
-            "temperature": "temperature t",
-            "thermal_resistance": "thermal_resistance r_th rth",
-        }.items()
-    }
-    | {f"contact.spin_{side}": f"spin_{side} omega_{side}" for side in (1, 2)}
-)
-NO_WORDS: Mapping[str, str] = {}
-_KEYS = {word: key for key, words in _WORDS.items() for word in words.split()}
-"""Keys of the case by words of headings."""
+
+
 _RADII = ("radius", "radius_x", "radius_y")
+
+
 _ALTERNATIVES = (
     ("contact.load", "contact.load_per_length", "contact.hertz_pressure", "contact.moes_load"),
     ("contact.entrainment_speed", "contact.moes_speed"),
@@ -92,21 +46,6 @@ _ALTERNATIVES = (
     ("lubricant.temperature", "thermal.temperature"),
 )
 """Keys of which a case states one: a row that states another removes that of the template."""
-_SIGNS = str.maketrans({"µ": "u", "μ": "u", "²": "^2", "³": "^3", "·": " ", "⋅": " ", "−": "-"})
-_DEGREES = {"°C": "degC", "C": "degC", "°": "deg", "° C": "degC"}
-_HEADING = re.compile(
-    r"(?P<name>.+?)\s*(?:\[(?P<a>.*)\]|\((?P<b>.*)\)|\s+in\s+(?P<c>\S.*)|\s*/\s*(?P<d>\S.*))\s*"
-)
-
-
-@dataclass(frozen=True, slots=True)
-class Column:
-    """A column of a list: its heading as it was typed, the key of the case, and the unit."""
-
-    heading: str
-    key: str | None
-    """None where the column is carried over as it is."""
-    unit: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -246,16 +185,16 @@ def columns_and_rows(
     """
     if len(lines) < 2:
         raise InputError("has no contacts: the first row has the headings, each other one contact")
-    columns = [_column("" if cell is None else str(cell), others) for cell in lines[0][1]]
+    columns = [column_of("" if cell is None else str(cell), others) for cell in lines[0][1]]
     body = lines[1:]
-    if _is_units(body[0][1]):
-        units = [_unit("" if cell is None else str(cell)) for cell in body[0][1]]
+    if are_units(body[0][1]):
+        units = [unit_of("" if cell is None else str(cell)) for cell in body[0][1]]
         columns = [
             Column(one.heading, one.key, unit or one.unit)
             for one, unit in zip(columns, units, strict=True)
         ]
         body = body[1:]
-    _check_columns(columns, [line for _, line in body])
+    check_columns(columns, [line for _, line in body])
     if not body:
         raise InputError("has no contacts below its units")
     return columns, body
@@ -274,81 +213,6 @@ def contacts_of(frame: "pd.DataFrame", base: dict[str, Any], folder: Path | None
         Where relative paths of measured surfaces begin.
     """
     return _contacts(lines_of_frame(frame), base, folder)
-
-
-def _column(text: str, others: Mapping[str, str] = NO_WORDS) -> Column:
-    """Return the column of a heading."""
-    match = _HEADING.fullmatch(text)
-    name, unit = text, ""
-    if match is not None:
-        name = match["name"]
-        unit = next((one for one in match.group("a", "b", "c", "d") if one is not None), "")
-    key, word = _key(name, others), _unit(unit)
-    if key is None and not unit and "_" in name:  # load_N
-        first, _, last = name.rpartition("_")
-        if is_unit(_unit(last)) and (known := _key(first, others)) is not None:
-            key, word = known, _unit(last)
-    if unit and not is_unit(word):
-        if key is not None and word not in ("-", "1", ""):
-            raise InputError(f'the unit of the column "{text}" is not known: {unit}')
-        word = ""
-    return Column(text, key, "" if word in ("-", "1") else word)
-
-
-def _unit(text: str) -> str:
-    plain = text.strip().strip("[]()").strip()
-    return _DEGREES.get(plain, plain.translate(_SIGNS).replace("°C", "degC"))
-
-
-def _is_units(cells: Sequence[Any]) -> bool:
-    """Whether a row has units in place of values."""
-    words = [str(cell) for cell in cells if cell is not None]
-    units = [word for word in words if is_unit(_unit(word)) or word in ("-", "1")]
-    return bool(units) and len(units) == len(words) and set(words) != {"1"}
-
-
-def _key(name: str, others: Mapping[str, str]) -> str | None:
-    """Return the key of the case, or the other name, that a heading means; None if not known."""
-    text = name.strip()
-    word = re.sub(r"(?:[^\w±]|_)+", "_", text.lower()).strip("_")
-    if word in _KEYS or word in others:
-        return others.get(word) or _KEYS[word]
-    paths = _paths()
-    if "." in text and text.split(".")[0] in _tables():
-        return text
-    if text in paths:
-        return text
-    ends = [path for path in paths if path.rpartition(".")[2] == word]
-    return ends[0] if len(ends) == 1 else None
-
-
-def _paths() -> list[str]:
-    return [*key_paths(ContactProblem), *key_paths(Options, "numerics.")]
-
-
-def _tables() -> set[str]:
-    return {*ContactProblem.model_fields, "numerics"}
-
-
-def _check_columns(columns: Sequence[Column], lines: Sequence[Sequence[Any]]) -> None:
-    """Raise for headings that are not known and hold numbers, and for keys that stand twice."""
-    keys = [one.key for one in columns if one.key is not None]
-    for one in columns:
-        if one.key is not None and keys.count(one.key) > 1:
-            raise InputError(f"two columns state {one.key}: remove one of them")
-    if not keys:
-        raise InputError("has no column that a case file knows, such as load [N]")
-    for place, one in enumerate(columns):
-        if one.key is not None or not one.heading:
-            continue
-        values = [line[place] for line in lines if line[place] is not None]
-        numeric = [not isinstance(plain_value(str(value)), str) for value in values]
-        if one.unit or (values and all(numeric)):
-            known = [*_KEYS, *_paths()]
-            word = re.split(r"[\[(/]", one.heading)[0].strip().lower()
-            near = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
-            guess = f"did you mean {near[0]}?" if near else "take a key of the case file"
-            raise InputError(f'the column "{one.heading}" is not known; {guess}')
 
 
 def stated_in(columns: Sequence[Column], cells: Sequence[Any]) -> dict[str, Any]:
