@@ -175,6 +175,22 @@ def test_a_slender_smooth_contact_is_resolved_by_its_finer_mesh_width():
     assert slender.stress_numbers.worse.shear_ratio == pytest.approx(1.0, abs=1e-6)
 
 
+def test_a_roller_is_compared_with_its_dry_slices():
+    contact = {"type": "roller", "radius": "10 mm", "length": "10 mm", "moes_load": 50.0}
+    rolling = tehl.solve(
+        tehl.ContactProblem(
+            contact=contact | {"moes_speed": 10.0, "profile": {"shape": "logarithmic"}},
+            surface_1={"material": "steel"},
+            surface_2={"material": "steel"},
+            lubricant="mineral-oil",
+        ),
+        tehl.Options(points=(129, 65)),
+    )
+    body = stress_numbers(rolling.with_stress(depths=10, body=1)).of(1)
+    assert body.shear_ratio == pytest.approx(1.0, abs=0.1)
+    assert 0.2 < body.life_ratio < 5.0
+
+
 def test_the_file_keeps_the_stress_and_exports_it(found, tmp_path):
     found.save(tmp_path / "film.nc")
     back = tehl.load(tmp_path / "film.nc")

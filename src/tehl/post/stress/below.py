@@ -8,7 +8,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.contact.stress import Stress
 from tehl.post.stress.influence import COMPONENTS, HalfSpace, Influence
-from tehl.post.stress.loads import SurfaceLoads, left_out, loads_on
+from tehl.post.stress.loads import SurfaceLoads, left_out, loads_on, parts_of_cells
 from tehl.post.stress.measures import Worst, largest_shear, worst
 from tehl.post.stress.thermal import (
     Heated,
@@ -245,7 +245,8 @@ def poisson_ratio(result: Solution, body: int) -> float:
 def _dry(result: Solution, window: Window) -> SurfaceLoads:
     """Return the pressure of the dry smooth contact under the same load."""
     x, y = result.scaled.x[window.columns], result.scaled.y[window.rows]
-    pressure = result.scales.hertz_pressure * result.problem.shape.dry_pressure(x, y[:, None])
+    pressure = result.scales.hertz_pressure * result.groups.shape.dry_pressure(x, y[:, None])
+    pressure = pressure * parts_of_cells(result)[window.rows]
     nothing = np.zeros_like(pressure)
     return SurfaceLoads(pressure, nothing, nothing)
 

@@ -52,7 +52,16 @@ def loads_on(result: Solution, body: int) -> SurfaceLoads:
     along, across = sliding_direction(result)
     stress_x -= along * rubbed
     stress_y -= across * rubbed
-    return SurfaceLoads(total, sign * stress_x, sign * stress_y)
+    part = parts_of_cells(result)
+    return SurfaceLoads(part * total, part * sign * stress_x, part * sign * stress_y)
+
+
+def parts_of_cells(result: Solution) -> Array:
+    """Return the part of its cell that each row fills, (ny, 1): half at the ends of a roller."""
+    part = np.ones((result.y.size, 1))
+    if result.problem.contact.type == "roller":
+        part[[0, -1]] = 0.5
+    return part
 
 
 def rubbing(result: Solution) -> Array:

@@ -8,7 +8,7 @@ from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.stress import Stress
 from tehl.post.stress.below import Case, Grid, March, poisson_ratio
-from tehl.post.stress.loads import SurfaceLoads
+from tehl.post.stress.loads import SurfaceLoads, parts_of_cells
 from tehl.post.stress.measures import Worst, largest_shear
 from tehl.post.stress.window import cut, depths_of, middle_row, window_of
 from tehl.post.traction import LARGEST_CREDIBLE
@@ -118,4 +118,6 @@ def frame_loads(run: TransientSolution, frame: int, body: int) -> SurfaceLoads:
         for k, axis in enumerate((film.y, film.x))
     )
     half = 0.5 * film.film_thickness
-    return SurfaceLoads(total, sign * sliding - half * along_x, -half * along_y)
+    part = parts_of_cells(film)
+    along = sign * sliding - half * along_x
+    return SurfaceLoads(part * total, part * along, -part * half * along_y)

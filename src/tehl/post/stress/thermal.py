@@ -19,7 +19,7 @@ from tehl.base.typing import Array
 from tehl.contact.heat import rubbing_parts
 from tehl.contact.materials import Solid
 from tehl.contact.stress import LEAST_THERMAL_PECLET
-from tehl.post.stress.loads import SurfaceLoads, rubbing
+from tehl.post.stress.loads import SurfaceLoads, parts_of_cells, rubbing
 from tehl.post.stress.window import Window
 from tehl.result.solution import Solution
 
@@ -96,6 +96,7 @@ def heated_body(
     sliding = problem.motion.sliding_field(result.x, result.y[:, None])
     rubbed = rubbing(result) * np.hypot(*sliding)
     flux = (heat.flux_1, heat.flux_2)[body - 1] + parts[body - 1] * rubbed
+    flux = flux * parts_of_cells(result)
     columns, last = window.columns, window.columns.stop + sides[1]
     before = max(sides[0] - columns.start, 0)
     before += before % 2
