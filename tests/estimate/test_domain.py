@@ -1,5 +1,6 @@
 """Domain and grid: proposed values, and invalid ones."""
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,7 +16,7 @@ from tehl.estimate.domain import (
     recommended_domain,
 )
 from tehl.estimate.entering import entry_error
-from tehl.estimate.nodes import expected_points
+from tehl.estimate.nodes import expected_points, planned
 from tehl.estimate.scaling import ScaledProblem, groups
 from tehl.solver.physics.bodies import solve
 from tests.reference import heated_contact, moes_contact
@@ -60,9 +61,10 @@ def test_the_proposed_nodes_can_be_coarsened(nodes):
     assert coarsenings(more) >= 1
 
 
+@pytest.mark.parametrize("near", [False, True])
 @pytest.mark.parametrize("load", [0.5, 5.0, 20.0, 200.0, 2000.0])
-def test_the_centre_is_a_node_of_every_grid_of_the_proposed_domain(load):
-    domain = recommended_domain(groups(moes_contact(load, 10.0)))
+def test_the_centre_is_a_node_of_every_grid_of_the_proposed_domain(load, near):
+    domain = recommended_domain(groups(moes_contact(load, 10.0)), near=near)
     (left, right), (south, north) = domain.x, domain.y
     assert -left / (right - left) * 16 == pytest.approx(round(-left / (right - left) * 16))
     assert south == -north
@@ -95,6 +97,33 @@ def test_near_edges_of_a_slender_contact_change_its_film_by_less_than_they_may()
     for name in ("central", "minimum"):
         here, there = (getattr(film.film_scaled, name) for film in films)
         assert here == pytest.approx(there, rel=far_field_error(case, near))
+
+
+@pytest.mark.parametrize(("load", "ratio"), [(300.0, 1.0), (1000.0, 3.0), (600.0, 25.0)])
+def test_the_nearest_edges_change_a_film_by_less_than_they_may(load, ratio):
+    problem = moes_contact(load, 10.0, radius_ratio=ratio)
+    case = groups(problem)
+    near, far = recommended_domain(case, near=True), recommended_domain(case)
+    area, usual = (np.prod([np.ptp(edges) for edges in (one.x, one.y)]) for one in (near, far))
+    assert area < 0.8 * usual
+    common = {"edges": "far_field", "accuracy": "tight", "tolerance": 1e-4, "wedge_order": 3}
+    films = []
+    for wider, points in ((1, (65, 65)), (2, (129, 129))):
+        domain = Domain(x=[wider * edge for edge in near.x], y=[wider * edge for edge in near.y])
+        options = Options.model_validate({"points": points, "domain": domain} | common)
+        films.append(solve(problem, options).film_scaled)
+    for name in ("central", "minimum"):
+        here, there = (getattr(film, name) for film in films)
+        assert here == pytest.approx(there, rel=far_field_error(case, near))
+
+
+@pytest.mark.parametrize(
+    ("load", "ratio", "columns"), [(20_000.0, 3.0, 1), (500.0, 3.0, 2), (20_000.0, 25.0, 2)]
+)
+def test_minima_close_to_the_edge_of_the_contact_get_as_many_lines_as_columns(load, ratio, columns):
+    scaled = ScaledProblem.of(moes_contact(load, 10.0, radius_ratio=ratio))
+    ny, nx = planned(scaled, Options()).shape
+    assert nx - 1 == columns * (ny - 1)
 
 
 def test_heavier_loads_need_more_points():

@@ -51,6 +51,15 @@ def test_no_grid_is_solved_twice():
     assert all(fine == 2 * coarse - 1 for coarse, fine in pairwise(found))
 
 
+def test_a_minimum_that_errs_by_the_mesh_along_y_gets_more_lines_alone():
+    found = solve(moes_contact(400.0, 1.0))
+    ny, nx = found.scaled.film.shape
+    assert ny == 2 * nx - 1
+    assert found.errors.minimum <= found.options.target
+    before = max(report.points[1] for report in found.history if report.points[0] == nx)
+    assert before == ny
+
+
 def test_a_smaller_error_takes_a_finer_grid_and_a_larger_domain():
     runs = [solve(moes_contact(20.0, 10.0), Options(error=error)) for error in (0.05, 0.0005)]
     meshes = [np.diff(run.scaled.x)[0] for run in runs]

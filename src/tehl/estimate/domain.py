@@ -16,9 +16,6 @@ from tehl.estimate.starvation import is_starved, starved_domain
 CAUTION = 2.0
 """Factor on the slope of the film formula by load, which is half of what wider domains show between
 M = 2 and 5."""
-NEAREST, NEAR_EDGE_ERROR = (2.0, 1.6), 0.15
-"""Distances of a stated inlet edge and of side edges below which the far field is not that of the
-gap, and error of the film per half-width less: 4 % measured at 1.2 from the sides (M = 76)."""
 LARGEST_DOMAIN_FACTOR = 2.5
 """Largest factor on the domain because of the temperature of the bodies."""
 DOMAIN_STEP, ENTRY_PART = 1.05, 0.3
@@ -36,10 +33,18 @@ SLENDER, SLENDER_SIDES = 4.0, (1.8, 3.0)
 """Ellipticity from which the side edges are nearer, and their distances as in `SIDES`: at 1.7, and
 2.4 widths, they change the film of seven bearings and gears by less than 0.03 %, that of circles by
 0.3 %."""
-FAR_FIELD, FAR_SIDES, WIDE_FIELD = 0.1, 0.03, 1.25
-"""Error by the far field over the cubed widths of the gap over the distances of the edges, of the
-sides of slender contacts, and over H kappa / X_in^5 (0.2 to 1.25 measured for M = 20 to 3400 and
-kappa = 1 to 10)."""
+FAR_FIELD, FAR_SIDES = 0.1, 0.03
+"""Error by the far field over the cubed widths of the gap over the distances of the edges, and of
+the sides of slender contacts."""
+NEAR_INLET, NEAR_SIDES, ROUNDED = 0.026, 0.0055, 0.03
+"""Error by the inlet edge over 2 H kappa / (d^4 + 0.03), with its distance d from the contact, and
+by the sides over 2 H / kappa^2.5 / (d^4 + 0.03): 0.4 to 1 of it measured for M = 50 to 4000 and
+kappa = 1 to 8."""
+NEAR_PART, NEAREST_SIDE, NEAREST_OUTLET = 0.05, 1.4, 1.25
+"""Part of the error of the domain that such edges leave each, and least distances of the sides and
+of the outlet, where nearer ones change films of M = 50 and more by less than 0.001 %."""
+CENTRES = range(9, 14)
+"""Intervals of 16 along x that lie upstream of the centre: it is a node of all grids."""
 SEPARATION_WITHOUT_CONTACT, EDGE_GAP_MARGIN = 4.5, 1.3
 """Separation over sigma from which asperities carry less than 1e-4 of what they do in touch, and
 margin on the gap at the edges."""
@@ -61,7 +66,9 @@ def gap_widths(groups: Groups) -> tuple[float, float]:
     return wider * along, wider * along / math.sqrt(across)
 
 
-def recommended_domain(groups: Groups, error: float = USUAL_PLAIN_ERROR) -> Domain:
+def recommended_domain(
+    groups: Groups, error: float = USUAL_PLAIN_ERROR, *, near: bool = False
+) -> Domain:
     """Return the domain, in Hertz half-widths, for a film with a relative ``error``.
 
     The far field on its edges leaves an error of the order of the distance to the power -3:
@@ -74,11 +81,24 @@ def recommended_domain(groups: Groups, error: float = USUAL_PLAIN_ERROR) -> Doma
         Film, ellipticity and radius ratio.
     error : float
         Relative error of the film that is acceptable [-].
+    near : bool
+        Whether the edges are as near as that error allows; else a contact of M = 200 and more has
+        the same domain as one of M = 100.
     """
     along, across = gap_widths(groups)
     if groups.shape.as_line:
         return line_domain(along, error, groups.shape.sides)
     larger = max(USUAL_PLAIN_ERROR / error, 1.0) ** (1.0 / 3.0)
+    if near and groups.twist == 0.0:
+        inlet, side = (
+            1.0 + max(factor / (NEAR_PART * error) - ROUNDED, 0.0) ** 0.25
+            for factor in _near_factors(groups)
+        )
+        return _rectangle(
+            max(larger * INLET[1] * along, inlet),
+            NEAREST_OUTLET,
+            max(larger * SIDES[1] * across, side, NEAREST_SIDE),
+        )
     wide = WIDE_INLET[0] * max(groups.ellipticity, 1.0) ** WIDE_INLET[1]
     inlet = larger * max(INLET[0], wide, INLET[1] * along)
     sides = SLENDER_SIDES if groups.ellipticity >= SLENDER else SIDES
@@ -88,10 +108,25 @@ def recommended_domain(groups: Groups, error: float = USUAL_PLAIN_ERROR) -> Doma
     return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=(-width, width))
 
 
+def _near_factors(groups: Groups) -> tuple[float, float]:
+    """Return the errors by near edges, inlet and sides, times d^4 + `ROUNDED` [-]."""
+    along, across = gap_widths(groups)
+    slender = max(groups.ellipticity, 1.0)
+    return NEAR_INLET * along**2 * slender, NEAR_SIDES * across**2 / slender**2.5
+
+
+def _rectangle(inlet: float, outlet: float, side: float) -> Domain:
+    """Return the smallest domain that reaches so far, whose centre is a node of all grids."""
+    inlet, side = (math.ceil(10.0 * edge) / 10.0 for edge in (inlet, side))
+    upstream = [(max(inlet, outlet * n / (16 - n)), n) for n in CENTRES]
+    inlet, n = min(upstream, key=lambda one: 16.0 * one[0] / one[1])
+    return Domain.model_construct(x=(-inlet, inlet * (16 - n) / n), y=(-side, side))
+
+
 def far_field_error(groups: Groups, domain: Domain) -> float:
     """Estimate the relative error of the film on a domain with the far field on its edges.
 
-    Measured for M = 1 to 500 and R_y/R_x = 0.5 to 5, rounded up.
+    Measured for M = 1 to 4000 and a_y/a_x = 0.7 to 8, rounded up.
 
     Parameters
     ----------
@@ -106,9 +141,8 @@ def far_field_error(groups: Groups, domain: Domain) -> float:
     inlet, side = -domain.x[0], min(-domain.y[0], domain.y[1])
     part = FAR_SIDES if groups.ellipticity >= SLENDER else FAR_FIELD
     thick = FAR_FIELD * (along / inlet) ** 3 + part * (across / side) ** 3
-    wide = WIDE_FIELD * 0.5 * along**2 * max(groups.ellipticity, 1.0) / inlet**5
-    near = NEAR_EDGE_ERROR * (max(NEAREST[0] - inlet, 0.0) + max(NEAREST[1] - side, 0.0))
-    return thick + wide + near
+    near = zip(_near_factors(groups), (inlet, side), strict=True)
+    return thick + sum(factor / ((edge - 1.0) ** 4 + ROUNDED) for factor, edge in near)
 
 
 def domain_error(groups: Groups, domain: Domain) -> float:
@@ -155,7 +189,21 @@ def domain_of(scaled: ScaledProblem, options: Options) -> Domain:
     """
     if isinstance(options.domain, Domain):
         return options.domain
-    return _in_time(scaled, chosen_domain(scaled, error_of_domain(scaled, options)))
+    return _in_time(scaled, proposed_domain(scaled, options))
+
+
+def proposed_domain(scaled: ScaledProblem, options: Options) -> Domain:
+    """Return the domain for the error to reach, whatever the options state.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Decides whether the film is extrapolated, see :func:`settled`.
+    options : Options
+        With the error to reach; the edges are as near as it allows where the film is extrapolated.
+    """
+    near = bool(settled(scaled.problem, options).extrapolate)
+    return chosen_domain(scaled, error_of_domain(scaled, options), near=near)
 
 
 def _in_time(scaled: ScaledProblem, domain: Domain) -> Domain:
@@ -187,7 +235,7 @@ def error_of_domain(scaled: ScaledProblem, options: Options) -> float:
     return options.target * (EXTRAPOLATED_DOMAIN if options.extrapolate else 1.0)
 
 
-def chosen_domain(scaled: ScaledProblem, error: float) -> Domain:
+def chosen_domain(scaled: ScaledProblem, error: float, *, near: bool = False) -> Domain:
     """Return the recommended domain, wider where bodies still warm or cool the oil that enters.
 
     That of a starved contact contains all of its film: the pressure on its edges is zero.
@@ -199,28 +247,32 @@ def chosen_domain(scaled: ScaledProblem, error: float) -> Domain:
         Contact with its supply, asperities and temperatures.
     error : float
         Relative error of the film due to the edges [-].
+    near : bool
+        As in `recommended_domain`.
     """
-    if scaled.problem.asperities is not None:
-        return _around_asperities(scaled, _of_film(scaled, error))
-    return _of_film(scaled, error)
+    domain = _of_film(scaled, error, near=near)
+    if scaled.problem.asperities is None:
+        return domain
+    return _around_asperities(scaled, domain, near=near)
 
 
-def _around_asperities(scaled: ScaledProblem, domain: Domain) -> Domain:
+def _around_asperities(scaled: ScaledProblem, domain: Domain, *, near: bool) -> Domain:
     """Return a domain on whose edges the asperities are `SEPARATION_WITHOUT_CONTACT`."""
     groups, sigma = scaled.groups, scaled.problem.asperity_rms / scaled.scales.film_thickness
     along = math.sqrt(1.0 + 2.0 * EDGE_GAP_MARGIN * SEPARATION_WITHOUT_CONTACT * sigma)
     across = along / math.sqrt(groups.shape.across) if groups.shape.across else 0.0
-    inlet = max(-domain.x[0], along)
-    outlet, side = max(domain.x[1], OUTLET * inlet, along), max(domain.y[1], across)
-    x, side = math.ceil(10.0 * max(inlet, outlet / OUTLET)) / 10.0, math.ceil(10.0 * side) / 10.0
-    return Domain.model_construct(x=(-x, OUTLET * x), y=(-side, side))
+    if along <= min(-domain.x[0], domain.x[1]) and across <= domain.y[1]:
+        return domain
+    inlet, outlet = (max(abs(edge), along) for edge in domain.x)
+    inlet = inlet if near else max(inlet, outlet / OUTLET)
+    return _rectangle(inlet, outlet, max(domain.y[1], across))
 
 
-def _of_film(scaled: ScaledProblem, error: float) -> Domain:
+def _of_film(scaled: ScaledProblem, error: float, *, near: bool) -> Domain:
     """Return the domain of `chosen_domain` without asperities."""
     if is_starved(scaled):
         return starved_domain(scaled)
-    least = domain = recommended_domain(scaled.entering, error)
+    least = domain = recommended_domain(scaled.entering, error, near=near)
     factor, shape = 1.0, scaled.groups.shape
     while factor < LARGEST_DOMAIN_FACTOR and entry_error(scaled, domain) > ENTRY_PART * error:
         factor = min(DOMAIN_STEP * factor, LARGEST_DOMAIN_FACTOR)

@@ -26,7 +26,10 @@ EXTRAPOLATED, HIGHER = 0.35, (2.5, 1.5)
 """Error bar of an extrapolated film over that of the film without, where that is large; factor and
 power of that where it is small."""
 SLENDER_RATIO_OF_NODES = 1.5
-"""a_y/a_x from which half as many nodes along y leave the same error."""
+"""a_y/a_x from which half as many nodes along y are the fewest that are planned."""
+LINES_BAR, ENOUGH_LINES = 0.2, 1.5
+"""Factor of `lines_bar`, within a factor of two for 20 contacts with M = 500 to 31,000; and that
+bar over the error to leave from which as many lines as columns are planned."""
 WAVE_NODES, ROUGH_NODES = 20.0, 1024
 """Nodes on the shortest wave of the surfaces, and most nodes for that reason."""
 
@@ -145,8 +148,7 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
         more = (nodes for nodes in FAVOURED if nodes > least)
         enough = (one for one in more if third_order_bar(scaled, domain, one) <= left)
         nodes = next(enough, FAVOURED[-1])
-        is_slender = scaled.groups.ellipticity >= SLENDER_RATIO_OF_NODES
-        return options.on_points(nodes, (nodes - 1) // 2 + 1 if is_slender else nodes)
+        return options.on_points(nodes, _lines(scaled, domain, nodes, ENOUGH_LINES * left))
     nodes = expected_points(
         scaled.entering,
         domain,
@@ -159,6 +161,34 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     if scaled.problem.contact.length is not None:
         return options.on_points(nodes, max((nodes - 1) // 2, LEAST_ROWS) + 1)
     return options.on_points(nodes, 1 if is_line else nodes)
+
+
+def _lines(scaled: ScaledProblem, domain: Domain, nodes: int, bar: float) -> int:
+    """Return the nodes along y for an error bar of the minimum film: half or all of ``nodes``.
+
+    ``nodes`` are those along x.
+    """
+    fewer = (nodes - 1) // 2 + 1
+    is_slender = scaled.groups.ellipticity >= SLENDER_RATIO_OF_NODES
+    return fewer if is_slender and lines_bar(scaled, domain, fewer) <= bar else nodes
+
+
+def lines_bar(scaled: ScaledProblem, domain: Domain, rows: float) -> float:
+    """Return the error bar of the minimum film by the mesh along y to expect.
+
+    The film is thinnest beside the edge of the contact, where the pressure falls as a square root:
+    the deflection errs by the power 1.5 of the mesh width, and the film with it.
+
+    Parameters
+    ----------
+    scaled, domain : ScaledProblem, Domain
+        The contact, and the domain of the solve.
+    rows : float
+        Nodes along y.
+    """
+    film = film_to_resolve(scaled) or expected_central_film(scaled.entering)
+    width = (domain.y[1] - domain.y[0]) / (rows - 1)
+    return float(LINES_BAR * width**1.5 / (film * max(scaled.groups.ellipticity, 1.0) ** 0.5))
 
 
 def film_to_resolve(scaled: ScaledProblem) -> float | None:

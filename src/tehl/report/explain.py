@@ -11,7 +11,7 @@ from tehl.contact.heat import FilmEnergy, source_form
 from tehl.contact.options import Domain, Options
 from tehl.contact.problem import HOTTEST_TEMPERATURE, ContactProblem
 from tehl.estimate.cpu_time import expected_seconds, seconds_range
-from tehl.estimate.domain import chosen_domain, domain_of, error_of_domain
+from tehl.estimate.domain import domain_of, proposed_domain
 from tehl.estimate.film_formulas import (
     FilmEstimate,
     Lubrication,
@@ -196,7 +196,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     check_supply(scaled, domain_of(scaled, options))
     likely, (ny, nx) = likely_film(scaled), options.shape
     film = likely.central_m
-    wanted = chosen_domain(scaled, error_of_domain(scaled, asked))
+    wanted = proposed_domain(scaled, asked)
     domain = domain_of(scaled, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
     mesh = (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y)

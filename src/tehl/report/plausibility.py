@@ -9,7 +9,7 @@ from tehl.contact.options import Domain, Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.summits import GreenwoodTripp
 from tehl.contact.tables import Surface
-from tehl.estimate.domain import chosen_domain, domain_error, domain_of, error_of_domain
+from tehl.estimate.domain import domain_error, domain_of, proposed_domain
 from tehl.estimate.film_formulas import likely_film
 from tehl.estimate.nodes import expected_bar, planned
 from tehl.estimate.scaling import ScaledProblem
@@ -302,7 +302,7 @@ def _about_bodies(bodies: BodyEffect | None) -> Iterator[str]:
 
 def _about_domain(options: Options, scaled: ScaledProblem) -> Iterator[str]:
     """Yield edges of a stated domain that are near, and what it truncates."""
-    stated, wanted = options.domain, chosen_domain(scaled, error_of_domain(scaled, options))
+    stated, wanted = options.domain, proposed_domain(scaled, options)
     if not isinstance(stated, Domain):
         return
     for name, here, there in (

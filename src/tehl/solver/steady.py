@@ -2,9 +2,10 @@
 
 import platform
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
-from functools import cache
+from functools import cache, partial
 from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
@@ -38,15 +39,13 @@ from tehl.solver.cost import Clock
 from tehl.solver.cycle.continuation import TouchingError
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
-from tehl.solver.cycle.ladder import ladder
+from tehl.solver.cycle.ladder import Strategy, ladder
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.diagnosis import diverged
 from tehl.solver.judging.extrapolation import Outputs, extrapolated, outputs_of
 from tehl.solver.judging.film_summary import central_value, film_summary
 from tehl.solver.judging.goal import Goal
-from tehl.solver.judging.outputs import (
-    oil_balance,
-)
+from tehl.solver.judging.outputs import oil_balance
 from tehl.solver.judging.remedy import LEAST_SECONDS, Reached, solved_on_other_nodes, working_hint
 from tehl.solver.judging.verdict import TOO_COARSE, touching, verdict
 from tehl.solver.monitor import SILENT, Deadline, Monitor, Recorder, TimeIsOverError
@@ -86,6 +85,57 @@ class Attempt:
     def rank(self) -> tuple[bool, bool, bool]:
         """Sorting key, best first: final, converged, finite."""
         return not self.is_final, not self.reached, self.status.kind == "diverged"
+
+
+@dataclass(frozen=True, slots=True)
+class Climb:
+    """The strategies of a ladder, tried in turn on the grid of a plan."""
+
+    scaled: ScaledProblem
+    goal: Goal
+    monitor: Monitor
+    solver: Callable[[Hierarchy, Strategy], FilmSolver]
+
+    def best(self, plan: Options, rungs: tuple[Strategy, ...]) -> Attempt:
+        """Return the best attempt.
+
+        Parameters
+        ----------
+        plan : Options
+            With the nodes of the finest grid.
+        rungs : tuple of Strategy
+            Those with another order of the wedge have as many nodes along y as along x.
+        """
+        best: Attempt | None = None
+        for number, strategy in enumerate(rungs):
+            if number:
+                self.monitor.message(f"falling back to {strategy.description}")
+            if strategy.wedge_order is not None and strategy.wedge_order != plan.order:
+                plan = plan.model_copy(update={"wedge_order": strategy.wedge_order})
+                nodes = plan.shape[1]
+                plan = self.goal.fitting(plan.on_points(nodes, nodes))
+            # Newton's method is expensive: the cycles before it are tried to the end
+            force = all(one.newton for one in rungs[number + 1 :])
+            attempt = self._attempt(plan, strategy, force=force)
+            best = _better(best, attempt)
+            while attempt.run.wants_lines and not self.goal.is_over:
+                nx, ny = attempt.run.finest.grid.points
+                plan = plan.on_points(nx, 2 * ny - 1)
+                self.monitor.message(f"more lines: {grid_size(plan.shape[::-1])}")
+                del attempt  # frees its grids, unless it is the best one
+                attempt = self._attempt(plan, strategy, force=force)
+                best = _better(best, attempt)
+            if attempt.is_final or self.goal.is_over:
+                break
+            del attempt
+        assert best is not None
+        return best
+
+    def _attempt(self, plan: Options, strategy: Strategy, *, force: bool) -> Attempt:
+        """Run a strategy on the grid of a plan, and judge its result."""
+        grid = finest_grid(self.scaled, plan)
+        hierarchy = Hierarchy.on(grid, self.scaled, plan, strategy.first_relaxation)
+        return _run(self.solver(hierarchy, strategy), force=force)
 
 
 def solve(
@@ -215,31 +265,13 @@ def try_strategies(
     plan = goal.fitting(planned(scaled, options))
     check_supply(scaled, domain_of(scaled, plan))
     check_memory(plan, problem)
-    grid = finest_grid(scaled, plan)
-    heights = heights_of(scaled, grid) if rough else None
+    heights = heights_of(scaled, finest_grid(scaled, plan)) if rough else None
     # at other accuracies full multigrid is done before a better start saves a cycle
     start = guess if options.accuracy == "tight" else None
-    rungs = ladder(scaled, options, rough=heights is not None)
-    best: Attempt | None = None
-    for number, strategy in enumerate(rungs):
-        if number:
-            monitor.message(f"falling back to {strategy.description}")
-        if strategy.wedge_order is not None and strategy.wedge_order != plan.order:
-            plan = plan.model_copy(update={"wedge_order": strategy.wedge_order})
-            plan = goal.fitting(plan.on_points(grid.nx, grid.nx))
-            grid = finest_grid(scaled, plan)
-        hierarchy = Hierarchy.on(grid, scaled, plan, strategy.first_relaxation)
-        run = FilmSolver(
-            hierarchy, strategy, heights=heights, goal=goal, monitor=history, guess=start
-        )
-        # Newton's method is expensive: the cycles before it are tried to the end
-        only_newton_left = all(one.newton for one in rungs[number + 1 :])
-        attempt = _run(run, force=only_newton_left)
-        best = _better(best, attempt)
-        if attempt.is_final or goal.is_over:
-            break
-        del run, hierarchy, attempt  # frees its grids, unless it is the best one
-    assert best is not None
+    solver = partial(FilmSolver, heights=heights, goal=goal, monitor=history, guess=start)
+    best = Climb(scaled, goal, history, solver).best(
+        plan, ladder(scaled, options, rough=heights is not None)
+    )
     supplied = _supplied(best.run.finest, flooded)
     result = _result(best, options, tuple(history.reports), clock.cost()).but(supplied=supplied)
     if problem.dynamics is None or not best.status.converged:

@@ -68,6 +68,7 @@ class FilmSolver(GridIteration):
         super().__init__(hierarchy, strategy, heights, goal, monitor)
         self.guess = guess
         self.accepted = True  # the next coarser grid has an acceptable solution
+        self.wants_lines = False  # more nodes along y alone would reach the goal
 
     @property
     def groups(self) -> Groups:
@@ -176,7 +177,8 @@ class FilmSolver(GridIteration):
             return (force or not resolved) and self.goal.may_try(self.finest)
         if resolved and self.goal.is_met(errors, part):
             return False
-        return self.goal.may_refine(self.finest, errors)
+        self.wants_lines = resolved and self.goal.wants_lines(self.finest, errors)
+        return not self.wants_lines and self.goal.may_refine(self.finest, errors)
 
     def _is_last(self, levels: Sequence[Level]) -> bool:
         """Return whether a grid is accurate enough, or no finer one may follow."""

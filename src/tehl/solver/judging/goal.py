@@ -9,6 +9,7 @@ from tehl.contact.options import Domain, Options, can_be_halved
 from tehl.estimate.domain import far_field_error
 from tehl.estimate.entering import entry_error
 from tehl.estimate.memory import USUAL_MEMORY, memory_limit, needed_memory
+from tehl.estimate.nodes import lines_bar
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.spin import spin_error
 from tehl.estimate.starvation import supply_error
@@ -28,6 +29,8 @@ LEAST_HALVINGS = 3
 """Halvings of the smallest grid that is planned."""
 NEGLIGIBLE_ITERATION_ERROR = 0.05
 """Iteration error that is accepted, over the error to reach: the error bars contain it."""
+MOST_LINES = 2
+"""Most nodes along y over those along x."""
 MOST_NODES_PER_AXIS = 16385
 """Most nodes along one direction."""
 
@@ -162,6 +165,28 @@ class Goal:
             return False
         self._tries += 1
         return self.may_refine(level)
+
+    def wants_lines(self, level: Level, errors: ErrorEstimate | None) -> bool:
+        """Return whether the minimum film errs by the mesh along y, and twice the lines fit.
+
+        Parameters
+        ----------
+        level : Level
+            Finest level so far, whose central film meets the goal.
+        errors : ErrorEstimate or None
+            Of that level.
+        """
+        grid, target = level.grid, self.options.target
+        if errors is None or errors.central > target or not self.options.extrapolate:
+            return False
+        others = errors.minimum - errors.discretisation_minimum
+        if others > 0.5 * target or lines_bar(self.scaled, grid.domain, grid.ny) < 0.5 * target:
+            return False
+        finer = 2 * grid.ny - 1
+        if finer > MOST_LINES * grid.nx or finer > MOST_NODES_PER_AXIS:
+            return False
+        plan = self.options.on_points(grid.nx, finer)
+        return needed_memory(plan, self.scaled.problem) <= memory_limit(self.options)
 
     def may_refine(self, level: Level, errors: ErrorEstimate | None = None) -> bool:
         """Return whether a grid of twice the intervals may follow; if not, `obstacle` says why.
