@@ -86,6 +86,15 @@ def test_physics_join_in_the_middle_as_in_a_line_contact(physics):
     assert found.film_scaled.central == pytest.approx(line.film_scaled.central, rel=3e-3)
 
 
+def test_cycles_of_heavily_loaded_rollers_converge_on_grids_whose_coarsest_would_be_too_coarse():
+    points = 161, 81  # 41 x 41 nodes by halving
+    options = Options(points=points, wedge_order=3, smoother="fast", accuracy="tight", max_cycles=5)
+    with pytest.raises(tehl.ConvergenceError) as caught:  # after few cycles
+        tehl.solve(roller(150.0, profile=LOGARITHMIC), options)
+    residuals = [one.residual for one in caught.value.result.history if one.points == points]
+    assert (residuals[4] / residuals[0]) ** 0.25 < 0.5
+
+
 def test_a_roller_is_certified_between_its_ends():
     found = tehl.certify(roller(profile=LOGARITHMIC), Options(points=(257, 129)))
     central = found.uncertainty["film_central"]

@@ -38,8 +38,9 @@ LEAST_GRIDS, LARGEST_DENSE = 3, 65
 """Grids that are kept, and most nodes along x of the coarsest, whose matrix is dense, where a wide
 domain makes the coarsest grid too coarse for the pressure: its load then depends on the rigid
 approach in another way, and the cycles diverge."""
-LINE_COARSEST, LINE_DENSE = 0.15, 129
-"""Of a line contact: mesh width of the coarsest grid over that of others, and most nodes. The
+LINE_COARSEST, ROLLER_COARSEST, LINE_DENSE = 0.15, 0.09, 129
+"""Of a line contact and of a roller: mesh width of the coarsest grid over that of others, and most
+nodes. From 0.1 half-widths on cycles of rollers diverge with a wedge of third order (M = 70). The
 pressure bends the bodies far away, and a grid on which it has few nodes does not correct that: with
 0.6 half-widths the cycles stall at 1e-5 (M = 40 to 240)."""
 LEAST_FILM_OF_W_CYCLE = 0.25
@@ -176,7 +177,8 @@ class Hierarchy:
         # of the parabolic gap, where film or asperities are thick
         widest, dense = max(1.0, (2.0 * max(film, high)) ** 0.5), LARGEST_DENSE
         if scaled.groups.shape.as_line:
-            widest, dense = LINE_COARSEST * widest, LINE_DENSE
+            widest *= ROLLER_COARSEST if finest.is_closed else LINE_COARSEST
+            dense = LINE_DENSE
         touches = scaled.problem.asperities is not None
         is_long = has_long_cells(finest, scaled.groups, touches=touches)
         if is_long:
