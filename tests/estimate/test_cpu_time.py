@@ -90,3 +90,18 @@ def test_hard_contacts_have_a_wider_range_of_time():
     slender = ScaledProblem.of(moes_problem(100.0, 8.0, radius_x=0.02, radius_y=0.01))
     assert seconds_range(heavy, 2.0) == seconds_range(heated, 2.0) == (1.0, 20.0)
     assert seconds_range(slender, 2.0) == (1.0, 20.0)
+
+
+def test_thin_films_that_thin_take_longer_but_between_asperities():
+    def seconds(load: float, **tables: object) -> float:
+        contact = moes_problem(load, 8.0, radius_x=0.02, radius_y=0.2)
+        known = contact.model_dump(exclude_none=True) | tables
+        known["lubricant"] |= {"shear": {"law": "eyring", "stress": 5e6}}
+        scaled = ScaledProblem.of(ContactProblem.model_validate(known))
+        return expected_seconds(scaled, Options())
+
+    summits = {"model": "greenwood-tripp", "summit_radius": 1e-5, "summit_density": 1e10}
+    rough = {"material": {"young_modulus": 1e11, "poisson_ratio": 0.0}, "rms_roughness": 1e-7}
+    between = {"asperities": summits, "surface_1": rough, "surface_2": rough}
+    assert seconds(4100.0) > 1.8 * seconds(3900.0)
+    assert seconds(4100.0, **between) < 1.5 * seconds(3900.0, **between)

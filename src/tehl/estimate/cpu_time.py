@@ -23,7 +23,7 @@ surfaces and grooves (shares 0.1 to 0.8, 129 and 257 nodes) take 0.7 to 1.9 time
 smooth ones 0.1 to 0.5 times. Where cycles fail, Newton's method takes ten times as long."""
 FIRST_CYCLES, CYCLES, ROUGH_CYCLES = 4, 2, 8
 """Cycles on the first grid, on each finer one, and on the one where the heights are raised."""
-FRONT_FACTOR = 2.0
+FRONT_FACTOR = 1.4
 """Factor where the edge of the oil must be found; the flooded contact is solved before."""
 STARTING = 0.4
 """Cost of the start of a grid in cycles."""
@@ -35,6 +35,9 @@ cores that other programs use too: 1.2 on a quiet machine, 1.9 with both of its 
 FINER_GRID_FACTOR, FINER_GRID_LARGEST_M, FINER_GRID_LEAST_L = 1.6, 100.0, 5.5
 """Factor where half of the thinning and heated contacts take a finer grid, and the largest M and
 least L where they do."""
+STEEP_FACTOR, STEEP_FROM_M, STEEP_FROM_L = 2.0, 4000.0, 20.0
+"""Factor where thinning or heated films need a fallback whose cycles are slow, and the M, without
+asperities, and the L from which most do."""
 SLENDER_RATIO_OF_TIME, WIDE_RATIO_OF_TIME = 0.7, 4.0
 """a_y/a_x below and above which a contact takes longer."""
 HIGH_TIME_FACTOR, HIGHER_TIME_FACTOR, HEAVY_LOAD = 3.0, 10.0, 2000.0
@@ -123,6 +126,9 @@ def expected_cycles(scaled: ScaledProblem, options: Options) -> list[tuple[Grid,
 def _surplus(scaled: ScaledProblem) -> float:
     """Return the factor for grids finer than planned, and for fallbacks."""
     problem, groups = scaled.problem, scaled.entering
+    is_heavy = groups.M > STEEP_FROM_M and problem.asperities is None
+    if problem.is_coupled and not problem.is_rough and (is_heavy or groups.L > STEEP_FROM_L):
+        return STEEP_FACTOR * SURPLUS
     thick = groups.M < FINER_GRID_LARGEST_M and groups.L > FINER_GRID_LEAST_L
     return FINER_GRID_FACTOR if problem.is_coupled and thick and not problem.is_rough else SURPLUS
 
