@@ -15,6 +15,7 @@ from tehl.kernels import cavities, properties, relaxation, reynolds
 from tehl.plots.oil import oil_map
 from tehl.post.layer import LayerDecay, layer_decay
 from tehl.post.starvation import meniscus, oil_flux
+from tehl.solver import steady
 from tehl.solver.transient.step import Stepper
 from tests.cases import ball_tables
 from tests.reference import DOMAIN, moes_contact, read
@@ -431,6 +432,13 @@ def test_a_profile_that_does_not_cover_the_domain_is_refused():
 
 
 # ---- the table of solved contacts
+
+
+def test_a_flooded_film_by_formula_is_in_the_error_bar(monkeypatch):
+    monkeypatch.setattr(steady, "flooded_film", lambda *_: None)
+    with pytest.raises(ConvergenceError, match="are due to the flooded film") as caught:
+        solve(starved(20.0, 10.0, ratio=0.7), Options())
+    assert caught.value.result.errors.supply == pytest.approx(0.25 / 1.49)
 
 
 def test_the_table_has_the_film_of_a_solved_contact(film):

@@ -34,6 +34,8 @@ FLOODED_SUPPLY, FLOODED_THIN_FILM, FLOODED_ERROR = 50.0, 0.5, 0.002
 """Supply over that of the flooded contact from which a thin film, H up to `FLOODED_THIN_FILM`, is
 flooded, and its error: half of the 0.4 % that it lacks at r = 20 (M = 20 and 50). A thick one is
 4 % from flooded at r = 60 and M = 5, and 22 % at M = 2."""
+FORMULA_ERROR = 0.25
+"""Error of a flooded film by formula, where heat or thinning is strong: 0.23 seen."""
 LINE_FLOODED = 0.995
 """Supply of a line contact, over what it passes on flooded, from which it is flooded: the meniscus
 of one that is starved lies at a distance of 1.5/sqrt(1 - r), which has no limit."""
@@ -181,15 +183,16 @@ def table() -> tuple[tuple[Array, Array, Array], Array, Array]:
 def supply_error(scaled: ScaledProblem) -> float:
     """Return the relative error of the film by what is known of the supply.
 
-    Of a stated ratio by the error of the flooded film; the film law says by how much:
-    1 / (1 + r^gamma), with gamma = 2 at least.
+    Of a stated ratio by the error of the flooded film, which is that of the formula if no flooded
+    film was found; the film law says by how much: 1 / (1 + r^gamma), with gamma = 2 at least.
     """
     supply = scaled.problem.supply
     if supply is not None and not is_starved(scaled):
         return 0.0 if scaled.groups.shape.as_line else FLOODED_ERROR
     if supply is None or supply.ratio is None:
         return 0.0
-    return scaled.flooded_error / (1.0 + supply.ratio**2)
+    error = FORMULA_ERROR if scaled.flooded_oil is None else scaled.flooded_error
+    return error / (1.0 + supply.ratio**2)
 
 
 def supplied_film(scaled: ScaledProblem) -> float:

@@ -211,6 +211,10 @@ class Goal:
             if isinstance(self.options.domain, Domain):
                 cause = "numerics.domain"
             self.obstacle = f"{percentage(errors.domain)} are due to {cause}"
+        elif (supply := supply_error(self.scaled)) > self.options.target:
+            self.obstacle = (
+                f"{percentage(supply)} are due to the flooded film, of which supply.ratio is a part"
+            )
         elif max(nx, ny) > MOST_NODES_PER_AXIS:
             self.obstacle = f"grids have at most {MOST_NODES_PER_AXIS} nodes along one direction"
         elif needed > available:
