@@ -21,7 +21,7 @@ from tehl.estimate.memory import check_memory
 from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
-from tehl.estimate.starvation import Flooded, check_supply
+from tehl.estimate.starvation import FORMULA_ERROR, Flooded, check_supply
 from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import heights_of, units_of
 from tehl.operators.resolution import resolution_of
@@ -299,7 +299,7 @@ def flooded_film(
     Returns
     -------
     Flooded or None
-        None also if the solve does not converge.
+        None also if cycles do not converge, or to no better film than that of the formula.
     """
     if problem.supply is None:
         return None
@@ -308,14 +308,16 @@ def flooded_film(
     same = problem.model_copy(update=changes)
     options = options.model_copy(update={"domain": "auto", "edges": "auto"})
     attempt, result = try_strategies(same, options, monitor=SILENT, rough=False)
-    if not result.status.converged:
+    errors = result.errors
+    is_known = attempt.reached and errors is not None and errors.central < FORMULA_ERROR
+    if not (result.status.converged or is_known):
         return None
     grid, film = attempt.run.finest.grid, attempt.run.finest.film
     central = result.film_scaled.central
     return Flooded(
         film=central,
         oil=central_value(grid, film.rho) * central,
-        error=0.0 if result.errors is None else result.errors.central,
+        error=0.0 if errors is None else errors.central,
     )
 
 

@@ -202,7 +202,7 @@ class Goal:
         now, limit = time.perf_counter(), self.options.max_time
         expected = FACTOR * (now - self._last)
         needed = needed_memory(self.options.on_points(nx, ny), self.scaled.problem)
-        available = memory_limit(self.options)
+        available, supply = memory_limit(self.options), supply_error(self.scaled)
         self.obstacle = ""
         if errors is not None and errors.domain > self.options.target:
             cause = "the domain, upstream of which the oil warms or cools"
@@ -211,7 +211,7 @@ class Goal:
             if isinstance(self.options.domain, Domain):
                 cause = "numerics.domain"
             self.obstacle = f"{percentage(errors.domain)} are due to {cause}"
-        elif (supply := supply_error(self.scaled)) > self.options.target:
+        elif supply > self.options.target and errors is not None and errors.central < 2.0 * supply:
             self.obstacle = (
                 f"{percentage(supply)} are due to the flooded film, of which supply.ratio is a part"
             )
