@@ -82,8 +82,8 @@ def recommended_domain(
     error : float
         Relative error of the film that is acceptable [-].
     near : bool
-        Whether the edges are as near as that error allows; else a contact of M = 200 and more has
-        the same domain as one of M = 100.
+        Whether the edges are as near as that error allows, but for ellipses at an angle; else a
+        contact of M = 200 and more has the same domain as one of M = 100.
     """
     along, across = gap_widths(groups)
     if groups.shape.as_line:

@@ -24,17 +24,9 @@ from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
 
 CLOSED = 2
-
-
 """Added to ``mirror`` where no oil flows through the ends: their rows are inner ones."""
-
-
 STEADILY, IN_TIME = 1, 2
-
-
 MARK_SECOND_ORDER, MARK_THIRD_ORDER = 1, 2
-
-
 """Marks of the nodes that pass on oil with second and with third order where it is conserved."""
 
 
@@ -50,8 +42,8 @@ class Stencil(NamedTuple):
     second order one of third order, with geometric means of the conductance. From column ``fore``
     on, behind the centre, half of it is added: all of it overshoots at the pressure spike.
     ``logarithmic`` is the part of the arithmetic mean beside the geometric one along y: a third
-    makes it a logarithmic one. Relaxation keeps the wedge of second order, which has the larger
-    diagonal.
+    makes it nearly a logarithmic one. Relaxation keeps the wedge of second order, which has the
+    larger diagonal.
     """
 
     cx: float

@@ -187,9 +187,7 @@ class March:
         influence = space.influence(float(self.depths[level]))
         return self._stress(self._body(case, space), space, influence, grid, level) * self.scale
 
-    def _body(
-        self, case: Case, space: HalfSpace
-    ) -> tuple[Any, Case, ThermalStress | RestingStress | None]:
+    def _body(self, case: Case, space: HalfSpace) -> Body:
         """Return the spectra of the loads of a body, itself, and its thermal stress."""
         heat = None if case.heat is None else thermal_stress_of(case.heat)
         loads = list(case.loads)

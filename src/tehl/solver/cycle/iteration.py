@@ -118,7 +118,7 @@ class GridIteration:
             strategy=self.strategy,
             roughness=self.roughness,
             damping=self.coupling.damping,
-            is_heated=self.coupling.state is not None,
+            is_damped=self.coupling.state is not None and self.coupling.damping < 1.0,
         )
 
     def _most_steps(self, levels: Sequence[Level], method: Cycles) -> int:

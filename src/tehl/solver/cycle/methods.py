@@ -68,8 +68,8 @@ class Visit:
     roughness: Roughness
     damping: float
     """Of heat and shear thinning [-]."""
-    is_heated: bool
-    """Heat or shear thinning have begun."""
+    is_damped: bool
+    """Whether changes of heat or shear thinning are damped, and have begun."""
 
     @property
     def fine(self) -> Level:
@@ -107,7 +107,7 @@ class Cycles:
         self.step: Callable[[], object] = self.cycle
         if visit.damping < 1.0:
             memory = min(memory, DAMPED_MEMORY)
-        is_damped = visit.is_heated and not visit.roughness.is_rough
+        is_damped = visit.is_damped and not visit.roughness.is_rough
         combines = visit.is_rough or (
             (fine.share.combines or is_damped) and not fine.cavity.is_balanced
         )

@@ -36,8 +36,8 @@ from tehl.solver.cycle.linearised import conductance_slopes
 from tehl.solver.physics.cavity import oil_flow
 
 STATIC_RESIDUAL, RESPONSE_RESIDUAL = 1e-6, 3e-5
-"""Relative residuals of Q and of R: k and Omega c are then within 3e-5 of k, c within 1.2e-4 of
-itself, cross terms within 7e-4 (M 10 to 300, L 2 to 14; against 1e-9)."""
+"""Relative residuals of Q and of R: k is then within 2e-6, c within 3e-5, rolling and cross terms
+within 2e-4 (M 10 to 300, L 2 to 20, Omega 0.05 to 8; against 1e-9)."""
 MOST_DIRECTIONS = 200
 """Search directions of a frequency, of which it needs 20 to 40, at which the solve fails."""
 DEPENDENT = 1e-13
