@@ -2,12 +2,14 @@
 
 import base64
 import io
+import tomllib
 
 import numpy as np
 import pytest
 from PIL import Image
 
 import tehl
+from tehl.api.problem import case_from_tables
 from tehl.explore.axes import Scale, log_ticks, ticks
 from tehl.explore.colour_map import (
     film_limits,
@@ -20,7 +22,8 @@ from tehl.explore.colour_map import (
 )
 from tehl.explore.curves import Point, line_charts, line_tops, swept_chart, values_on_line
 from tehl.explore.numbers import numbers, value_of
-from tehl.explore.shown import shown
+from tehl.explore.shown import maps_of, shown
+from tehl.io.templates import template_text
 from tehl.report.explain import explain
 from tests.cases import ball_tables
 
@@ -138,6 +141,16 @@ def test_numbers_are_those_of_the_result_with_bars_and_formulas(result):
     assert value_of(found, "p_max").formulas[0][0] == "Hertz"
     assert value_of(found, "t_max").value is None
     assert value_of(found, "t_max").remark
+
+
+def test_the_dry_contact_of_a_roller_is_a_strip_to_its_ends():
+    case, _ = case_from_tables(tomllib.loads(template_text("roller")))
+    found = tehl.solve(case, tehl.Options(points=65))
+    maps = maps_of(found)
+    half, far = maps.half_widths
+    assert half == pytest.approx(1e6 * found.scales.half_width_x)
+    at = half * np.sqrt(1.0 - (maps.window[1][1] / far) ** 2)  # of the rim, at the end
+    assert at == pytest.approx(half, rel=1e-3)
 
 
 def test_a_line_contact_is_a_strip_of_equal_lines():

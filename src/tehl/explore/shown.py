@@ -164,7 +164,7 @@ def maps_of(result: Result) -> Maps:
         x=result.x[columns] * 1e6,
         y=result.y[rows] * 1e6,
         window=(x, y),
-        half_widths=half,
+        half_widths=(half[0], half[1] * (FAR_RIM if result.problem.contact.has_lines else 1.0)),
         stretch=stretched(result),
         film=_single(result.film_thickness[rows, columns] * 1e9),
         pressure=_single(result.pressure[rows, columns] * 1e-9),
