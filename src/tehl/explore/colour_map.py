@@ -302,7 +302,9 @@ def _contact(frame: Frame, maps: Maps) -> str:
     turn = "" if maps.skew == 0.0 else f" rotate({-math.degrees(angle):.2f})"
     place = f'transform="translate({frame.x(0.0):.1f} {frame.y(0.0):.1f}){turn}"'
     ring = f'<ellipse {place} rx="{first:.1f}" ry="{second:.1f}"'
-    parts = [f'{ring} class="rim"/>{ring} class="hertz"/>']
+    box = 'x="{0}" y="{1}" width="{2}" height="{3}" viewBox="{0} {1} {2} {3}"'.format(*frame.place)
+    # that of a line has no end
+    parts = [f'<svg {box}>{ring} class="rim"/>{ring} class="hertz"/></svg>']
     for x, y in maps.minimum:
         parts.append(_cross(frame.x(x), frame.y(y)))
     left, low = frame.x.start + 10, frame.y.start - 12
