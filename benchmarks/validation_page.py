@@ -9,7 +9,15 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from tests.reference import CLOSE, DOMAIN, heated_contact, moes_contact, read, wavy_contact
+from tests.reference import (
+    CLOSE,
+    DOMAIN,
+    heated_contact,
+    heated_numbers,
+    moes_contact,
+    read,
+    wavy_contact,
+)
 
 from benchmarks import directions_page, line_page, mixed_page, starved_page, uses_page, waves
 from benchmarks.markdown import head, row
@@ -113,20 +121,9 @@ def heated_film(case: dict[str, Any], points: int) -> Result:
 
 def heated_quantities(case: dict[str, Any], run: Result) -> dict[str, float]:
     """Return the quantities to compare, by their keys in the reference."""
-    temperature, traction = run.temperature, run.traction
-    if temperature is None or traction is None:
-        raise ValueError("the reference films are heated")
-    rolls = case["slide_roll_ratio"] == 0
-    return {
-        "h_central": run.film_scaled.central,
-        "h_minimum": run.film_scaled.minimum,
-        "mid_film_rise": temperature.mid_film_rise_central,
-        **(
-            {"traction_surface_1": traction.surface_1}
-            if rolls
-            else {"traction_mid_film": traction.mid_film}
-        ),
-    }
+    friction = "traction_surface_1" if case["slide_roll_ratio"] == 0 else "traction_mid_film"
+    numbers = heated_numbers(run)
+    return {key: numbers[key] for key in ("h_central", "h_minimum", "mid_film_rise", friction)}
 
 
 WAVY = """\

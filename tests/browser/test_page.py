@@ -85,7 +85,7 @@ def test_each_view_draws(page):
 
 
 def test_the_value_under_the_pointer_is_shown(page):
-    page.locator(".slot:visible .drawing svg").hover(position={"x": 300, "y": 250})
+    page.locator(".slot:visible .drawing > svg").hover(position={"x": 300, "y": 250})
     page.locator(".readout", has_text="nm").wait_for()
 
 
@@ -268,7 +268,7 @@ def test_the_theme_is_kept_over_a_reload(page):
 
 def test_values_of_curves_are_read_under_the_pointer(page):
     page.get_by_role("tab", name="Centre lines").click()
-    page.locator(".slot:visible .drawing svg").first.hover(position={"x": 300, "y": 150})
+    page.locator(".slot:visible .drawing > svg").first.hover(position={"x": 300, "y": 150})
     page.locator(".readout", has_text="Hertz").wait_for()
 
 
@@ -282,4 +282,4 @@ def test_a_transient_run_plays_as_a_movie(context, served):
     assert clock.inner_text() == "0 µs"
     page.get_by_role("button", name="play or pause").click()
     until(lambda: clock.inner_text() != "0 µs")
-    assert page.locator(".movie .drawing svg").count() == 2
+    assert page.locator(".movie .drawing > svg").count() == 2

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
 from tehl.contact.options import Domain
 from tehl.estimate.film_formulas import expected_film
 from tehl.estimate.scaling import ScaledProblem
@@ -197,3 +198,22 @@ def heated_contact(
             else {"reynolds": reynolds, "sources": sources, "layers": layers},
         }
     )
+
+
+def heated_numbers(run: Result) -> dict[str, float]:
+    """Return what is compared of a heated film, by its keys in the reference.
+
+    The friction is over all nodes under pressure, as the reference has it.
+    """
+    temperature, shear, wet = run.temperature, run.shear, run.scaled.pressure > 0
+    assert temperature is not None
+    assert shear is not None
+    area = (run.x[1] - run.x[0]) * (run.y[1] - run.y[0]) / run.scales.load
+    return {
+        "h_central": run.film_scaled.central,
+        "h_minimum": run.film_scaled.minimum,
+        "p_central": run.scaled.at_origin(run.scaled.pressure),
+        "mid_film_rise": temperature.mid_film_rise_central,
+        "traction_surface_1": float(area * shear.surface_1[wet].sum()),
+        "traction_mid_film": float(area * shear.mid_film[wet].sum()),
+    }

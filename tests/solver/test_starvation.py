@@ -332,6 +332,12 @@ def test_the_law_of_side_flow_is_that_of_the_passes(passed):
     assert history.film_central[15] - law[-1] == pytest.approx(change, rel=0.25)
 
 
+@pytest.mark.parametrize("points", [(65, 257), (129, 65)])
+def test_the_law_of_side_flow_does_not_see_the_mesh(points):
+    decay = layer_decay(solve(starved(50.0, 8.0, ratio=0.2, track=0.25), Options(points=points)))
+    assert decay.rate == pytest.approx(decay.rate_by_formula, rel=0.05)
+
+
 def test_a_layer_that_is_fed_ends_at_its_limit():
     decay = LayerDecay(
         rate=1e13, rate_by_formula=1e13, start=9e-8, density=1.15, replenishment=1e-11

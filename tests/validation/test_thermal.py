@@ -8,7 +8,7 @@ from tehl.api.results import Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Options
 from tehl.solver.judging.richardson import estimate
-from tests.reference import DOMAIN, heated_contact, read
+from tests.reference import DOMAIN, heated_contact, heated_numbers, read
 
 HEATED = read("thermal")
 INDEPENDENT = HEATED["independent"]["case"]
@@ -19,22 +19,6 @@ TOLERANCE = 1e-5
 
 def name(case: dict) -> str:
     return f"{case['reynolds']},SRR={case['slide_roll_ratio']:g}"
-
-
-def numbers(run: Result) -> dict[str, float]:
-    temperature, shear, wet = run.temperature, run.shear, run.scaled.pressure > 0
-    assert temperature is not None
-    assert shear is not None
-    # as the reference has it, over all nodes under pressure
-    area = (run.x[1] - run.x[0]) * (run.y[1] - run.y[0]) / run.scales.load
-    return {
-        "h_central": run.film_scaled.central,
-        "h_minimum": run.film_scaled.minimum,
-        "p_central": run.scaled.at_origin(run.scaled.pressure),
-        "mid_film_rise": temperature.mid_film_rise_central,
-        "traction_surface_1": float(area * shear.surface_1[wet].sum()),
-        "traction_mid_film": float(area * shear.mid_film[wet].sum()),
-    }
 
 
 @cache
@@ -57,7 +41,7 @@ def test_the_groups_are_those_of_the_reference():
 @pytest.mark.parametrize("points", [129, pytest.param(257, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("case", INDEPENDENT, ids=name)
 def test_the_heated_film_is_that_of_the_independent_solver_on_the_same_grid(case, points):
-    found, there = numbers(film_of(case, points)), case[f"on_{points}"]
+    found, there = heated_numbers(film_of(case, points)), case[f"on_{points}"]
     # two schemes of second order whose energy equations differ in their upstream differences
     assert found["h_central"] == pytest.approx(there["h_central"], rel=1e-4)
     assert found["p_central"] == pytest.approx(there["p_central"], rel=3e-4)
@@ -81,7 +65,7 @@ def test_the_heated_film_is_that_of_the_independent_solver_on_the_same_grid(case
     ],
 )
 def test_three_grids_extrapolate_to_the_heated_film(case, quantity, tolerance, absolute):
-    values = tuple(numbers(film_of(case, points))[quantity] for points in GRIDS)
+    values = tuple(heated_numbers(film_of(case, points))[quantity] for points in GRIDS)
     found = estimate(values, domain=0.0)
     assert found.value == pytest.approx(case[quantity]["value"], rel=tolerance, abs=absolute)
 

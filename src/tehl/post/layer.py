@@ -28,6 +28,11 @@ from tehl.base.typing import Array
 from tehl.contact.hertz import HertzContact
 from tehl.result.solution import Solution
 
+PRESSURES = 4001
+"""Steps of the integral of the reduced pressure, closest where oil flows."""
+FITTED = 0.5
+"""Half-widths beside the middle in which S is a polynomial of fourth order: F to 1 % on 129^2."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class LayerDecay:
@@ -86,7 +91,12 @@ def _with_replenishment(time: Array, start: float, decay: float, gain: float) ->
 
 
 def _side_flow_rate(result: Solution, track: float) -> float:
-    """Return F by quadrature of the pressure of a result on y = 0 [1/(m^2 s)].
+    """Return F by the pressure of a result [1/(m^2 s)].
+
+    Only the edges of the contact count, where oil still flows: a second difference there sees the
+    mesh. The flow of a row is the derivative of its reduced pressure, which is smooth along y::
+
+        F = -(2 / l) S_yy,    S(y) = int int_0^p dp / (rho^2 eta) dx
 
     Parameters
     ----------
@@ -95,14 +105,18 @@ def _side_flow_rate(result: Solution, track: float) -> float:
     track : float
         Length of both running tracks together [m].
     """
-    row = int(np.argmin(np.abs(result.y)))
-    pressure, oil = result.pressure[row - 1 : row + 2], result.problem.lubricant
-    spacing, temperature = result.y[1] - result.y[0], result.scales.temperature
-    bend = (pressure[2] - 2.0 * pressure[1] + pressure[0]) / spacing**2
-    density = oil.density.density(pressure[1], temperature) / result.scales.density
-    viscosity = oil.viscosity.viscosity(pressure[1], temperature)
-    flow = np.where(pressure[1] > 0.0, -bend / (density**2 * viscosity), 0.0)
-    return float(2.0 / track * np.trapezoid(flow, result.x))
+    oil, temperature = result.problem.lubricant, result.scales.temperature
+    steps = np.linspace(0.0, 1.0, PRESSURES) ** 2 * result.pressure.max()
+    density = oil.density.density(steps, temperature) / result.scales.density
+    ease = 1.0 / (density**2 * oil.viscosity.viscosity(steps, temperature))
+    reduced = np.concatenate([[0.0], np.cumsum(0.5 * (ease[1:] + ease[:-1]) * np.diff(steps))])
+    rows = np.trapezoid(np.interp(result.pressure, steps, reduced), result.x, axis=1)
+    half_width = result.problem.hertz.half_width_y
+    y = result.y / half_width
+    near = np.abs(y) <= FITTED
+    powers = y[near, None] ** np.array([0, 2, 4])
+    bend = 2.0 * np.linalg.lstsq(powers, rows[near], rcond=None)[0][1] / half_width**2
+    return float(-2.0 / track * bend)
 
 
 def rate_by_formula(hertz: HertzContact, viscosity: float, alpha: float, track: float) -> float:
