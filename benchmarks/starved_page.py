@@ -18,6 +18,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.post.layer import LayerDecay, layer_decay, rate_by_formula
 from tehl.post.starvation import meniscus
 from tehl.solver.judging.richardson import estimate
+from tehl.solver.physics.passes import resolved
 
 GRIDS = (129, 257, 513)
 FILMS = """
@@ -33,8 +34,8 @@ DECAY = """
 Gao and others, Tribology International (2025), 111137: a steel ball (radius 9.53 mm, p_h = 0.48
 GPa, track of 40 mm radius, base oil 0.38 Pa s, 30 /GPa) and a crowned roller on glass. The law of
 side flow takes the pressure of the solved contact for the ball, the closed form for the roller,
-whose contact is 69 times as wide as long. Passes: one after the other on 129², from r = 0.18; the
-meniscus then comes nearer than a quarter of a mesh width.
+whose contact is 69 times as wide as long. Passes: one after the other on 129², from r = 0.18, until
+the meniscus comes nearer than a quarter of a mesh width (dashes).
 """
 BALL = {
     "contact": {"hertz_pressure": 0.48e9, "entrainment_speed": 0.2},
@@ -45,8 +46,8 @@ BALL = {
         "density": {"law": "dowson-higginson", "rho_0": 891.0},
     },
 }
-TRACK, SECONDS, MEASURED = 2.0 * math.pi * 0.04, 1020.0, 20.0
-"""Length of the track [m], time [s] and film after it [nm] of the ball."""
+TRACK, MEASURED, RESOLVED_SECONDS = 2.0 * math.pi * 0.04, 20.0, 330.0
+"""Length of the track [m], film of the ball after 1020 s [nm], and time of the passes [s]."""
 
 
 def films() -> Iterator[str]:
@@ -89,21 +90,24 @@ def decay() -> Iterator[str]:
     yield DECAY
     supply = {"ratio": 0.1805, "track": TRACK}
     law = layer_decay(solve(case_from_tables(BALL | {"supply": supply})[0]))
-    count = round(SECONDS / (0.5 * TRACK / 0.2))
-    passes = solve_passes(
+    count = round(RESOLVED_SECONDS / (0.5 * TRACK / 0.2))
+    run = solve_passes(
         case_from_tables(BALL | {"supply": supply | {"passes": count}})[0], Options(points=129)
-    ).passes
+    )
+    passes = run.passes
     assert passes is not None
+    known = slice(resolved(passes, float(run.x[1] - run.x[0])))
     times = np.array([0.0, 120.0, 255.0, 510.0, 1020.0])
     found = [1e9 * law.film(times), 1e9 * law.film(times, by_formula=True)]
-    by_pass = 1e9 * np.interp(times, passes.time, passes.film_central)
+    by_pass = 1e9 * np.interp(times, passes.time[known], passes.film_central[known], right=np.nan)
     yield from head(
         "ball, time [s]", "law [nm]", "closed form [nm]", "passes [nm]", "measured [nm]"
     )
     for number, moment in enumerate(times):
         films = (values[number] for values in (*found, by_pass))
         measured = {0: "90", len(times) - 1: f"{MEASURED:g}"}.get(number, "")
-        yield row(f"{moment:g}", *(f"{film:.1f}" for film in films), measured)
+        shown = ("-" if math.isnan(film) else f"{film:.1f}" for film in films)
+        yield row(f"{moment:g}", *shown, measured)
     yield ""
     yield from head("roller, speed [mm/s]", "film [nm]", "law [nm/s]", "measured [nm/s]")
     for speed, flooded, part, rates in (
