@@ -9,7 +9,7 @@ from tehl.api.problem import ContactProblem
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import ScaledProblem
 
-SOLIDS = ("steel", "steel", "steel", "glass", "bronze", "silicon-nitride", "pmma")
+SOLIDS = ("steel", "steel", "steel", "glass", "bronze", "silicon-nitride", "peek")
 LOADS, SPEEDS, RATIOS, RADII = (2.0, 2000.0), (0.5, 20.0), (0.5, 5.0), (1e-3, 0.1)
 """Ranges of M, L, R_y / R_x and R_x [m], uniform in the logarithm."""
 LARGEST_SLIDE = 1.9

@@ -127,6 +127,20 @@ def test_the_contact_of_a_case_is_compared(monkeypatch, capsys, file, case):
     assert "smaller than the contact" in found["questions"][0]
 
 
+def test_a_line_takes_the_heights_at_its_middle(monkeypatch, capsys, file, tmp_path):
+    run(monkeypatch, "new", "line")
+    text = capsys.readouterr().out.replace("rms_roughness", "# rms_roughness")
+    rough = f'roughness = {{ type = "map", file = "{file}", unit = "um", pixel = "2 um" }}'
+    path = tmp_path / "line.toml"
+    path.write_text(text.replace("[surface_1]", f"[surface_1]\n{rough}"), encoding="utf-8")
+    found = numbers(monkeypatch, capsys, file, *STATED, "--contact", str(path))
+    assert found["mesh_m"][0] == found["mesh_m"][1]
+    (said,) = (one for one in found["questions"] if "smaller" in one)
+    assert "x 96 um and the contact of 150 um" in said
+    assert run(monkeypatch, "explain", str(path)) == 0
+    assert "numerics.points" not in capsys.readouterr().out
+
+
 def test_the_picture_is_written_and_the_file_stays(monkeypatch, capsys, file, tmp_path):
     picture = tmp_path / "map.png"
     assert run(monkeypatch, "surface", file, *STATED, "-o", str(picture)) == 0

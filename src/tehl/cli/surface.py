@@ -127,14 +127,16 @@ def _mesh_of_case(case: Path, points: int | None) -> "Mesh":
     problem, options = problems.read_case_and_options(case, changes)
     plan, hertz = explanations.explain(problem, options), problem.hertz
     domain, (ny, nx) = plan.domain, plan.options.shape
+    along = (domain.x[1] - domain.x[0]) * hertz.half_width_x / (nx - 1)
+    across = along  # of a line, as its mesh carries heights
+    if ny > 1:
+        across = (domain.y[1] - domain.y[0]) * hertz.half_width_y / (ny - 1)
     return previews.Mesh(
-        spacing=(
-            (domain.x[1] - domain.x[0]) * hertz.half_width_x / (nx - 1),
-            (domain.y[1] - domain.y[0]) * hertz.half_width_y / (ny - 1),
-        ),
+        spacing=(along, across),
         half_widths=(hertz.half_width_x, hertz.half_width_y),
         points=(nx, ny),
         skew=hertz.skew,
+        straight=problem.contact.has_lines,
     )
 
 

@@ -288,15 +288,32 @@ def dress_contact(axes: Axes, result: Solution) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(3 if slender > 2 else 8, steps=STEPS))
     axes.yaxis.set_major_locator(MaxNLocator(3 if slender < 0.5 else 8, steps=STEPS))
     style: dict[str, Any] = {"color": "white", "ls": "--", "lw": 1.1, "zorder": 5}
-    if result.problem.contact.has_lines:
-        rim: Patch = Rectangle((-widths[0], -widths[1]), 2 * widths[0], 2 * widths[1], **style)
-        rim.set_fill(False)
-    else:
-        first, second, angle = axes_of(*widths, result.groups.skew)
-        rim = Ellipse((0, 0), 2 * first, 2 * second, angle=np.degrees(angle), fill=False, **style)
+    straight = result.problem.contact.has_lines
+    rim = contact_rim(widths, result.groups.skew, straight=straight, **style)
     axes.add_patch(rim).set_path_effects(outline("0.25", 1.9))
     if result.problem.motion.mean_spin:
         _velocities(axes, result)
+
+
+def contact_rim(widths: tuple[float, float], skew: float, *, straight: bool, **style: Any) -> Patch:
+    """Return the rim of a contact, to be drawn on a map.
+
+    Parameters
+    ----------
+    widths : (float, float)
+        Half-widths along x and y, in units of the axes.
+    skew : float
+        s of an ellipse at an angle [-].
+    straight : bool
+        Whether it is that of a line or a roller.
+    **style : Any
+        Of the patch.
+    """
+    if straight:
+        (a, b), corner = widths, (-widths[0], -widths[1])
+        return Rectangle(corner, 2 * a, 2 * b, fill=False, **style)
+    first, second, angle = axes_of(*widths, skew)
+    return Ellipse((0, 0), 2 * first, 2 * second, angle=np.degrees(angle), fill=False, **style)
 
 
 def _velocities(axes: Axes, result: Solution) -> None:

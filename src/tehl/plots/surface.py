@@ -6,11 +6,10 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Ellipse, Polygon
+from matplotlib.patches import Polygon
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from tehl.contact.hertz import axes_of
-from tehl.plots.frame import BLUE, MICRO, ORANGE, PLAIN, STEPS, Picture, outline
+from tehl.plots.frame import BLUE, MICRO, ORANGE, PLAIN, STEPS, Picture, contact_rim, outline
 from tehl.roughness.preview import Mesh, Preview, View, view
 
 _CLIPPED, _COUNTED_HEIGHTS = 0.1, 10**6
@@ -100,9 +99,8 @@ def _draw_contact(axes: Axes, mesh: Mesh) -> str:
     """Draw the contact within the present limits; return its caption."""
     limits = axes.get_xlim(), axes.get_ylim()
     half_x, half_y = (MICRO * half for half in mesh.half_widths)
-    first, second, angle = axes_of(half_x, half_y, mesh.skew)
-    style: dict[str, Any] = {"fill": False, "color": "white", "ls": "--", "lw": 1.3}
-    rim = Ellipse((0, 0), 2 * first, 2 * second, angle=np.degrees(angle), **style)
+    style: dict[str, Any] = {"color": "white", "ls": "--", "lw": 1.3}
+    rim = contact_rim((half_x, half_y), mesh.skew, straight=mesh.straight, **style)
     axes.add_patch(rim).set_path_effects(outline("0.2", 2.4))
     axes.set(xlim=limits[0], ylim=limits[1])
     reaches = zip(limits, (half_x, half_y), strict=True)

@@ -29,6 +29,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import check_supply, starved_degree, supply_ratio
 from tehl.estimate.summits import SharedLoad, shared_load
 from tehl.lubricant.pressure import UNCERTAINTY
+from tehl.operators.heights import units_of
 from tehl.report.expected_heat import (
     BodyEffect,
     ExpectedHeat,
@@ -199,7 +200,8 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     wanted = proposed_domain(scaled, asked)
     domain = domain_of(scaled, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
-    mesh = (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y)
+    along, across = units_of(grid, scaled.scales)
+    mesh = (grid.dx * along, grid.dy * across)
     heights, plan = asperities(problem, options, mesh, film), transient_plan(scaled, options, mesh)
     bodies = body_effect(scaled)
     heat = expected_heat(scaled, bodies)

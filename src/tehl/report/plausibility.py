@@ -335,7 +335,7 @@ def _about_grid(options: Options, scaled: ScaledProblem) -> Iterator[str]:
             "enforced: remove one of them"
         )
     groups, coupled = scaled.entering, scaled.problem.is_coupled
-    nodes = min(one for one in options.shape if one > 1)  # a line contact has one row
+    nodes = _fewest(options)
     bar = expected_bar(groups, domain_of(scaled, options), nodes, is_coupled=coupled)
     if bar > options.target:
         size = "above 100 %" if bar > 1.0 else f"about {percentage(bar)}"
@@ -343,6 +343,11 @@ def _about_grid(options: Options, scaled: ScaledProblem) -> Iterator[str]:
             f"numerics.points = {nodes}: the expected error of the film is {size}, and a coarse "
             f'grid may not converge; set numerics.error = "{percentage(options.target)}" instead'
         )
+
+
+def _fewest(options: Options) -> int:
+    """Return the nodes of the direction that has fewer; a line contact has one row."""
+    return min(one for one in options.shape if one > 1)
 
 
 def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -> Iterator[str]:
@@ -358,7 +363,7 @@ def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -
             for points in (found.points_to_converge, found.points_to_resolve)
         )
         yield (
-            f"numerics.points = {min(options.shape)}: {found.points_per_wave:.2g} nodes on the "
+            f"numerics.points = {_fewest(options)}: {found.points_per_wave:.2g} nodes on the "
             f"shortest wave of the surfaces ({found.shortest_wave * 1e6:.3g} um), so a run may not "
             f"converge; {enough} put {CONVERGES} on it, {better} the {RESOLVES} that its ripples "
             "need"

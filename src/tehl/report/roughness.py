@@ -88,8 +88,11 @@ def asperities(
     )
     waves = [min(pair) for pair in zip(*(one.shortest_wavelengths for one in roughs), strict=True)]
     counts = [wave / step for wave, step in zip(waves, mesh, strict=True)]
-    fewest, axis = min((count, number) for number, count in enumerate(counts))
-    size = (2.0 * problem.hertz.half_width_x, 2.0 * problem.hertz.half_width_y)
+    is_line = problem.contact.is_line
+    fewest, axis = min(
+        (count, number) for number, count in enumerate(counts[: 1 if is_line else 2])
+    )
+    size = (2.0 * problem.hertz.half_width_x, 0.0 if is_line else 2.0 * problem.hertz.half_width_y)
     return Asperities(
         sq=(first, second),
         composite=math.hypot(first, second),

@@ -95,25 +95,23 @@ class Map(MapSettings):
         Parameters
         ----------
         width, length : float
-            Axes of the Hertz ellipse along x and y [m].
+            Axes of the Hertz contact along x and y [m]; zero of a line, which takes y = 0.
         """
         heights = self.load()
         extent = _turned(heights.size, self.rotate)
-        sizes = (
-            f"the map of {_micro(*extent)} and the contact of {_micro(width, length)} (along x and "
-            "y)"
-        )
+        size = _micro(width, length) if length else f"{1e6 * width:.4g} um"
+        sizes = f"the map of {_micro(*extent)} and the contact of {size} (along x and y)"
         sentences = []
         if extent[0] < width or extent[1] < length:
             sentences.append(
                 f"{sizes}: the map is smaller than the contact; {BEYOND[self.outside]}"
             )
-        elif min(extent[0] / width, extent[1] / length) > _LARGE_RATIO:
+        elif extent[0] > _LARGE_RATIO * width and extent[1] > _LARGE_RATIO * length:
             sentences.append(f"{sizes}: only a small part of the map lies in the contact")
-        if max(heights.pixel) > min(width, length) / _COARSE_RATIO:
+        if max(heights.pixel) > min(width, length or width) / _COARSE_RATIO:
             sentences.append(
                 f"the map has points {_micro(*heights.pixel)} apart and the contact measures "
-                f"{_micro(width, length)}: that is too coarse to be roughness, check its size"
+                f"{size}: that is too coarse to be roughness, check its size"
             )
         if abs(self.x) > 0.5 * (extent[0] + width) or abs(self.y) > 0.5 * (extent[1] + length):
             sentences.append(f"{sizes} do not touch at time zero: the map lies beside the contact")

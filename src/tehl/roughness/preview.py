@@ -28,6 +28,14 @@ class Mesh:
     points: tuple[int, int]
     skew: float = 0.0
     """s of the rim of the contact, X^2 - 2 s X Y + Y^2 = 1 - s^2 in half-widths."""
+    straight: bool = False
+    """Whether the rim is a rectangle, that of a line or a roller."""
+
+    @property
+    def axes(self) -> tuple[float, float]:
+        """Axes of the contact along x and y [m]; zero of a line, which takes y = 0."""
+        first, second = (2.0 * half for half in self.half_widths)
+        return first, 0.0 if self.points[1] == 1 else second
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -84,9 +92,7 @@ def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
         mesh=mesh,
         lost=None if mesh is None else share_beyond(values, pixel, mesh.spacing),
         sentences=(
-            note_on_form(heights, surface.level)
-            if mesh is None
-            else surface.fits(2.0 * mesh.half_widths[0], 2.0 * mesh.half_widths[1])
+            note_on_form(heights, surface.level) if mesh is None else surface.fits(*mesh.axes)
         ),
     )
 
