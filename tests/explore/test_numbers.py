@@ -8,6 +8,7 @@ pytest.importorskip("nicegui", reason="needs pip install 'tehl[explore]'")
 
 import tehl
 from tehl.api.problem import case_from_tables
+from tehl.explore.jobs import facts
 from tehl.explore.number_panel import number_html
 from tehl.explore.numbers import Number, numbers, value_of
 from tehl.io.case import tables_of_text
@@ -58,3 +59,14 @@ def test_surfaces_that_touch_add_to_friction_and_power():
     assert value_of(found, "friction").value == result.touching.friction is not None
     power = result.traction.friction_power + result.touching.power_boundary
     assert value_of(found, "power").value == pytest.approx(power)
+
+
+def test_power_and_load_of_a_line_are_those_of_a_length():
+    problem, options = case_from_tables(tables_of_text(template_text("line")))
+    explanation = explain(problem, options)
+    power = value_of(numbers(tehl.solve(problem, options), explanation), "power")
+    assert power.value > 0.0
+    assert power.remark == "of one metre"
+    words = dict(facts(explanation))
+    assert words["load"] == "100 N/mm"
+    assert "a_y / a_x" not in words

@@ -188,7 +188,7 @@ class Desk:
         """
         problem, options = case_from_tables(ask.tables)
         found = explain(problem, options)
-        yield Explained(_groups(found), found.questions, found.seconds)
+        yield Explained(facts(found), found.questions, found.seconds)
         yield from self.compiled(coupled=problem.is_coupled)
         for stage, final in self.stages(steady(problem), options, found, quick=ask.quick):
             result = self.result(steady(problem), stage)
@@ -274,15 +274,17 @@ def _seconds(time: float) -> str:
     return f"{max(1.0, float(f'{time:.1g}')):.0f} s"
 
 
-def _groups(found: Explanation) -> tuple[tuple[str, str], ...]:
+def facts(found: Explanation) -> tuple[tuple[str, str], ...]:
     """Return load, Hertz contact, groups and regime in words."""
     problem, groups = found.scaled.problem, found.scaled.groups
     hertz = problem.hertz
+    is_line = problem.contact.is_line  # its load is that of one metre
+    load = f"{1e-3 * problem.load:.4g} N/mm" if is_line else f"{problem.load:.4g} N"
     return (
-        ("load", f"{problem.load:.4g} N"),
+        ("load", load),
         ("Hertz pressure", f"{hertz.pressure * 1e-9:.4g} GPa"),
         ("half-width a_x", f"{hertz.half_width_x * 1e6:.4g} µm"),
-        ("a_y / a_x", f"{groups.ellipticity:.4g}"),
+        *(() if is_line else (("a_y / a_x", f"{groups.ellipticity:.4g}"),)),
         ("Moes M", f"{groups.M:.4g}"),
         ("Moes L", f"{groups.L:.4g}"),
         ("regime", film_formulas.regime(groups)),

@@ -127,6 +127,8 @@ def _remarks(found: Following, explanation: Explanation) -> dict[str, str]:
         remarks["friction"] = remarks["power"] = words
     if not result.problem.motion.slides:
         remarks["friction"] = "pure rolling: set a slide-to-roll ratio"
+    if result.problem.contact.is_line and not remarks["power"]:
+        remarks["power"] = "of one metre"
     return remarks
 
 
