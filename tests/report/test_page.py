@@ -19,7 +19,9 @@ from tehl.post.waves import passing_wave
 from tehl.report import page as module
 from tehl.report.page import report_text
 from tehl.report.readable import input_rows
+from tehl.report.rendering import FILTERS, UNITS
 from tehl.result.bars import Estimate
+from tehl.result.quantities import QUANTITIES
 from tehl.result.solution import Hint, Status
 from tests.fixtures_result import CASE
 from tests.fixtures_rough import make_rough
@@ -82,6 +84,12 @@ def test_each_part_is_there(page):
         assert part in words
     for fact in ("Hamrock-Dowson", "contact.load", "80", "certified", "2/E' =", "2.01"):
         assert fact in words
+
+
+def test_each_quantity_of_the_first_table_has_a_unit():
+    units = {one.unit for one in QUANTITIES if "report" in one.words}
+    assert "N mm" in units
+    assert {FILTERS[unit] for unit in units} <= UNITS.keys()
 
 
 @pytest.mark.usefixtures("one_picture")

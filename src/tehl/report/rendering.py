@@ -21,6 +21,7 @@ UNITS = {
     "watt": (1.0, " W"),
     "newton_per_um": (1e-6, " N/µm"),
     "newton_second_per_m": (1.0, " N s/m"),
+    "newton_mm": (1e3, " N mm"),
     "share": (100.0, " %"),
     "plain": (1.0, ""),
 }
@@ -35,6 +36,7 @@ FILTERS = {
     "W": "watt",
     "N/um": "newton_per_um",
     "N s/m": "newton_second_per_m",
+    "N mm": "newton_mm",
     "%": "share",
 }
 """Names of the filters by the units of `tehl.result.quantities`."""
