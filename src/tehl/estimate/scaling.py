@@ -107,7 +107,8 @@ class ScaledProblem:
 
         Along the bodies it has taken their temperature; the film formulas and the far field follow.
         """
-        return _with_viscosity(self.groups, _body_viscosity(self.problem))
+        factor = _body_viscosity(self.problem)
+        return self.groups if factor == 1.0 else _with_viscosity(self.groups, factor)
 
 
 def scales(problem: ContactProblem) -> Scales:

@@ -9,8 +9,6 @@ node are kept in the order here, east, west, north, south, and two nodes upstrea
 
 from typing import NamedTuple
 
-import numpy as np
-
 from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
@@ -80,42 +78,6 @@ class Work(NamedTuple):
     by_p: Array
     by_h: Array
     dry: FlagArray
-
-
-def newton_step(state: Coarse, stencil: Stencil, system: CoarseSystem, longest: float) -> float:
-    """Take one Newton step on ``state.p`` in place; return the change of the rigid approach.
-
-    Parameters
-    ----------
-    state : Coarse
-        Pressure and film with the derivatives of the conductance.
-    stencil : Stencil
-        Weights of the differences.
-    system : CoarseSystem
-        Residual, influence and load.
-    longest : float
-        Largest change of a pressure, to which the step is shortened [-].
-    """
-    nx, nodes = state.p.shape[1], state.p.size
-    work = Work(
-        matrix=np.empty((nodes + 1, nodes + 1)),
-        rhs=np.empty(nodes + 1),
-        free=np.empty(nodes, np.int64),
-        full=np.empty(nodes),
-        near=np.empty(SLOTS, np.int64),
-        by_p=np.empty(SLOTS),
-        by_h=np.empty(SLOTS),
-        dry=np.zeros(nodes, np.uint8),
-    )
-    flat = Coarse._make(field.ravel() for field in state)
-    flags = system._replace(residual=system.residual.ravel(), frozen=system.frozen.ravel())
-    count = fill_step(flat, stencil, flags, work, nx)
-    free = slice(count + 1)
-    try:
-        work.rhs[free] = np.linalg.solve(work.matrix[free, free], work.rhs[free])
-    except np.linalg.LinAlgError:
-        work.rhs[free] = np.nan
-    return take_step(flat, flags, work, count, longest)
 
 
 @helper
@@ -343,7 +305,8 @@ def fill_step(state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work,
     Parameters
     ----------
     state, stencil, system, work : Coarse, Stencil, CoarseSystem, Work
-        As of `newton_step`, on flat fields.
+        Pressure and film with the derivatives of the conductance, weights of the differences,
+        residual, influence and load, and scratch; on flat fields.
     nx : int
         Nodes per row.
     """
@@ -362,7 +325,7 @@ def take_step(state: Coarse, system: CoarseSystem, work: Work, count: int, longe
     Parameters
     ----------
     state, system, work : Coarse, CoarseSystem, Work
-        As of `newton_step`; the right-hand side is the step.
+        As of `fill_step`; the right-hand side is the step.
     count, longest : int, float
         Free nodes, and largest change of a pressure [-].
     """

@@ -56,12 +56,12 @@ class Gap(NamedTuple):
         growth: Array = cosine**2 + self.ratio * sine**2
         return growth + 2.0 * self.twist * cosine * sine if self.twist else growth
 
-    def place(self, x: Array, y: Array) -> Array:
+    def place(self, x: float | Array, y: float | Array) -> Array:
         """Return the angles of places within the range of `angles`.
 
         Parameters
         ----------
-        x, y : Array
+        x, y : float or Array
             X and kappa Y, which broadcast.
         """
         at = np.arctan2(y, x)
@@ -114,6 +114,7 @@ def angular_pressure(gap: Gap) -> tuple[Array, Array]:
     return angle, np.where(wet, np.maximum(f, 0.0), 0.0)
 
 
+@lru_cache(maxsize=16)
 def angular_squeeze(gap: Gap) -> Array:
     """Return q at the angles of `angular_pressure`, zero where the oil is cavitated, (n,).
 
@@ -202,30 +203,35 @@ class FarField:
         self.groups = groups
         gap, stretch = gap_of(groups), groups.ellipticity
         angle, f = angular_pressure(gap)
-        x, y = grid.x[None, :], stretch * grid.y[:, None]
-        whole = slice(None)
-        edges: list[Edge] = [(whole, 0), (whole, -1), (-1, whole)]
+        squeeze = groups.lambda_bar * angular_squeeze(gap)
+        x, y, whole = grid.x, stretch * grid.y, slice(None)
+        edges: list[tuple[Edge, float | Array, float | Array]] = [
+            ((whole, 0), x[0], y),
+            ((whole, -1), x[-1], y),
+            ((-1, whole), x, y[-1]),
+        ]
         if not grid.mirror:
-            edges.append((0, whole))
-        radius, here = np.hypot(x, y), gap.place(x, y)
+            edges.append(((0, whole), x, y[0]))
         # each edge with 2 lambda r g^2 f and lambda g^2 q / 4 at its nodes
         self.edges: list[tuple[Edge, Array]] = []
         self.squeezed: list[Array] = []
-        squeeze = groups.lambda_bar * angular_squeeze(gap)
-        for edge in edges:
-            at = here[edge]
+        for edge, along, across in edges:
+            at = gap.place(along, across)
             shape = gap.growth(at) ** 2
             wedge = np.interp(at, angle, f) * shape
-            self.edges.append((edge, 2.0 * groups.lambda_bar * radius[edge] * wedge))
+            radius = np.hypot(along, across)
+            self.edges.append((edge, 2.0 * groups.lambda_bar * radius * wedge))
             self.squeezed.append(0.25 * shape * np.interp(at, angle, squeeze))
-        # the load outside, ray by ray
-        self.growth = gap.growth(angle)
+        # the load outside, ray by ray where the oil is not cavitated
+        wet = f > 0.0
+        self.growth = gap.growth(angle[wet])
         low, high = grid.domain.y
-        self.radius = gap.radii(angle, grid.domain.x, (stretch * low, stretch * high))
+        radii = gap.radii(angle, grid.domain.x, (stretch * low, stretch * high))
+        self.radius = np.ascontiguousarray(radii[:, wet])
         width = np.full(angle.size, angle[1] - angle[0])
         width[[0, -1]] *= 0.5
-        self.weight = 8.0 * groups.lambda_bar / stretch * f * width
-        self.squeeze_weight = 0.25 * squeeze * self.growth * width / stretch
+        self.weight = 8.0 * groups.lambda_bar / stretch * (f * width)[wet]
+        self.squeeze_weight = 0.25 * (squeeze * width)[wet] * self.growth / stretch
 
     def set_edges(self, pressure: Array, film: Array) -> None:
         """Set the pressure on the edges for a film.

@@ -88,20 +88,26 @@ def _point_source(
     """
     whole = Influence(cell[1], cell[0], 1.0)
     x, y = np.float64(cell[1]) * columns[None, :], np.float64(cell[0]) * rows[:, None]
-    table = whole(rows[:, None], columns[None, :]) * _plume(x, y, peclet)
+    table = _at(whole, rows, columns) * _plume(x, y, peclet)
     near_rows = np.flatnonzero(np.abs(rows) <= NEAR[peclet[1] != 0.0])
     near_columns = np.flatnonzero(np.abs(columns) <= NEAR[1])
     part = Influence(cell[1] / PARTS_PER_SIDE, cell[0] / PARTS_PER_SIDE, 1.0)
     offsets = np.arange(PARTS_PER_SIDE) - PARTS_PER_SIDE // 2
-    j = (PARTS_PER_SIDE * rows[near_rows][:, None] + offsets[None, :]).reshape(-1, 1)
-    i = (PARTS_PER_SIDE * columns[near_columns][:, None] + offsets[None, :]).reshape(1, -1)
-    x, y = np.float64(cell[1] / PARTS_PER_SIDE) * i, np.float64(cell[0] / PARTS_PER_SIDE) * j
-    pieces = part(j, i) * _plume(x, y, peclet)
+    j = (PARTS_PER_SIDE * rows[near_rows][:, None] + offsets[None, :]).ravel()
+    i = (PARTS_PER_SIDE * columns[near_columns][:, None] + offsets[None, :]).ravel()
+    x, y = np.float64(part.dx) * i[None, :], np.float64(part.dy) * j[:, None]
+    pieces = _at(part, j, i) * _plume(x, y, peclet)
     near = pieces.reshape(len(near_rows), PARTS_PER_SIDE, len(near_columns), PARTS_PER_SIDE).sum(
         axis=(1, 3)
     )
     table[np.ix_(near_rows, near_columns)] = near
     return table
+
+
+def _at(influence: Influence, rows: IntArray, columns: IntArray) -> Array:
+    """Return an influence at offsets (rows, columns), of which it is even."""
+    j, i = np.abs(rows), np.abs(columns)
+    return influence.table(int(j.max()) + 1, int(i.max()) + 1)[np.ix_(j, i)]
 
 
 def _row_source(

@@ -155,9 +155,13 @@ def dense_matrix(
     ny, nx = shape
     rows, columns = np.arange(2 * ny - 1)[:, None], np.arange(nx)[None, :]
     table = influence(stride[0] * rows, stride[1] * columns)
-    i, j = np.arange(nx), np.arange(ny)
+    i = np.arange(nx)
     lines = table[:, np.abs(i[:, None] - i)]  # of one line on another, by distance
-    matrix = lines[np.abs(j[:, None] - j)]
-    if mirror:
-        matrix[:, 1:] += lines[j[:, None] + j[1:]]
-    return np.ascontiguousarray(matrix.swapaxes(1, 2)).reshape(ny * nx, ny * nx)
+    matrix = np.empty((ny, nx, ny, nx))
+    for row in range(ny):
+        for other in range(ny):
+            block = matrix[row, :, other]
+            block[:] = lines[abs(row - other)]
+            if mirror and other:
+                block += lines[row + other]
+    return matrix.reshape(ny * nx, ny * nx)

@@ -126,9 +126,10 @@ def _side(
     first, motion = number == 1, problem.motion
     bulk, spin = (heat.bulk_1, motion.spin_1) if first else (heat.bulk_2, motion.spin_2)
     solid = problem.surface_1.material if first else problem.surface_2.material
+    is_heated = problem.thermal is not None
     across = motion.velocity_of(number)[1]
     stated = (solid.conductivity, solid.density, solid.heat_capacity)
-    conductivity, density, capacity = (value or 0.0 for value in stated)
+    conductivity, density, capacity = (is_heated * (value or 0.0) for value in stated)
     peclet = peclet_y = 0.0
     if conductivity > 0.0:
         peclet = 0.5 * speed * scales.half_width_x * density * capacity / conductivity

@@ -171,7 +171,7 @@ class Sources:
 
     ``history`` is the contribution of previous films to wedge and squeeze in a time step; f is
     less by it. ``drift`` is the divergence of what sliding carries beside the mean flow; f is
-    more by it. ``outside`` is the load beyond the edges, part of w.
+    more by it.
     """
 
     reynolds: Array
@@ -179,4 +179,3 @@ class Sources:
     load: float
     history: Array | None = None
     drift: Array | None = None
-    outside: float = 0.0

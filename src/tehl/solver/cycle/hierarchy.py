@@ -1,4 +1,4 @@
-"""The grids of a contact, coarsest first, the cycle on them, and the solver of the coarsest one."""
+"""The grids of a contact, coarsest first, and the cycle on them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -6,7 +6,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from tehl.base.typing import Array
 from tehl.contact.options import Options
 from tehl.estimate.grid import (
     LONG_STRETCH,
@@ -17,14 +16,11 @@ from tehl.estimate.grid import (
 )
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.summits import shared_load
-from tehl.kernels.coarsest import CoarseSystem, newton_step
 from tehl.operators.flow import flow_table
-from tehl.operators.influence import matrix_of
+from tehl.solver.cycle.coarsest import CoarsestSolver
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.level import Level
-from tehl.solver.cycle.linearised import linearised, residual_of
-from tehl.solver.cycle.newton import one_thread
 from tehl.solver.cycle.relaxation import Relaxation
 from tehl.solver.cycle.start import from_coarser, from_dry_pressure, pose_problem
 from tehl.solver.cycle.transfers import TRANSFERS
@@ -46,63 +42,6 @@ pressure bends the bodies far away, and a grid on which it has few nodes does no
 LEAST_FILM_OF_W_CYCLE = 0.25
 """Expected central film above which two visits help: for a thinner film such a grid has no valid
 discrete solution, and more visits do harm (M = 200 and more on wide domains)."""
-MOST_CARRIED, MOST_HALVINGS = 1.5, 8
-"""Pressure of the asperities beyond which a Newton step is halved, over that of Hertz, which they
-exceed by little even when dry; and most times."""
-LONGEST_STEP = 0.3
-"""Largest change of pressure in a Newton step on the coarsest grid, in Hertz pressures."""
-
-
-class CoarsestSolver:
-    """Newton's method for pressure and rigid approach together on the coarsest level.
-
-    The equations are L(P, H00 + K P + g) = f at the wet nodes and sum(P) dx dy = w, with the dense
-    matrix K and the derivatives of the conductance by pressure and film. The rigid approach moves
-    all pressures at once, so no local relaxation finds it; here it costs one more unknown.
-    """
-
-    def __init__(self, level: Level) -> None:
-        self.level = level
-        equations = level.equations
-        grid = equations.grid
-        self.influence = matrix_of(grid, equations.influence)
-
-    def step(self) -> None:
-        """Perform a Newton step of limited length in place."""
-        level = self.level
-        level.update()
-        stencil = level.equations.robust
-        laws, answer = level.equations.asperities, level.share.response
-        system = CoarseSystem(
-            residual=residual_of(level),
-            influence=self.influence,
-            frozen=level.smoother.frozen,
-            area=level.equations.load.area,
-            missing_load=level.missing_load(),
-            yielding=0.0 if answer is None else answer.stiffness,
-            nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
-        )
-        before = level.film.p.copy(), level.film.asperity.copy()
-        with one_thread():
-            change = newton_step(linearised(level), stencil, system, LONGEST_STEP)
-        level.move(change)
-        if laws is not None:
-            self._shorten(before, change)
-
-    def _shorten(self, before: tuple[Array, Array], change: float) -> None:
-        """Halve a step until the asperities, steep as they are, carry no more than is likely."""
-        level, film = self.level, self.level.film
-        after = film.p.copy(), film.asperity.copy()
-        largest = max(MOST_CARRIED, 2.0 * before[1].max())
-        for _ in range(MOST_HALVINGS):
-            level.update()
-            if film.asperity.max() <= largest:
-                return
-            change *= 0.5
-            level.move(-change)
-            for one, old, new in zip((film.p, film.asperity), before, after, strict=True):
-                new[:] = 0.5 * (old + new)
-                one[:] = new
 
 
 def has_long_cells(grid: Grid, groups: Groups, *, touches: bool) -> bool:

@@ -140,7 +140,6 @@ class Level:
         np.add(h, self.share.raised(self.rigid_approach), out=h)
         if self.far_field is not None:
             self.far_field.set_edges(self.film.p, h)
-            self.sources.outside = self.far_field.load(h, self.equations.gap)
         self.share.follow(self, FILM_PER_PRESSURE)
         self.is_stale = False
         self.cavity.mark(self)
@@ -225,8 +224,14 @@ class Level:
     def missing_load(self) -> float:
         """Return w less the integral of P, inside and outside the domain [-]."""
         inside = self.equations.load.integral(self.pressure)
-        missing = self.sources.load - self.sources.outside - inside
+        missing = self.sources.load - self.outside - inside
         return missing + self.share.answered(self)
+
+    @property
+    def outside(self) -> float:
+        """Load beyond the edges of the finest level, part of w [-]."""
+        far = self.far_field
+        return 0.0 if far is None else far.load(self.separation, self.equations.gap)
 
     def load_error(self) -> float:
         """Return the relative error of the load balance."""

@@ -49,9 +49,9 @@ COARSE_NODES, COARSE_TOUCHING = 33, 17
 surfaces may touch: dense equations of more take longer than the iterations they save."""
 DAMPED_MEMORY = 3
 """Most earlier cycles combined if heat and thinning are damped: older ones had another flow."""
-FIRST_STEPS, TOUCHING_STEPS = 6, 20
-"""Newton steps on the coarsest grid at the start, and where surfaces may touch; that they may not
-converge does no harm."""
+FIRST_STEPS, TOUCHING_STEPS, SMALL_STEP = 6, 20, 0.03
+"""Most Newton steps on the coarsest grid at the start, and where surfaces may touch, and change of
+pressure [-] that ends the first ones; that they may not converge does no harm."""
 
 Iterate = Callable[[Callable[[], object]], float]
 """Performs a step with all that follows it, and returns the residual."""
@@ -248,7 +248,8 @@ def solve_coarsest(hierarchy: Hierarchy, *, newton: bool) -> None:
     coarsest = hierarchy.levels[0]
     if not (newton and coarsest.share.bounds_film):
         for _ in range(FIRST_STEPS):
-            hierarchy.coarsest.step()
+            if hierarchy.coarsest.newton_step() < SMALL_STEP:
+                break
     else:
         touching = TouchingNewton(coarsest, coarsest.grid, order=1)
         for _ in range(TOUCHING_STEPS):

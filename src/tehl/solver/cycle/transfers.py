@@ -42,7 +42,7 @@ def restrict_solution(fine: Level, coarse: Level) -> None:
     mirror, frozen, limit = fine.stencil.mirror, coarse.smoother.frozen, fine.cavity.frozen_below
     transfer.restrict_pressure(fine.film.p, mirror, coarse.film.p)
     transfer.freeze(fine.film.p, fine.smoother.frozen, coarse.film.p, mirror, limit, frozen)
-    coarse.is_finest, coarse.sources.outside = False, 0.0
+    coarse.is_finest = False
     fine.cavity.inject(fine, coarse)
     # I P and H00: `correct` interpolates the change since
     before, _ = coarse.restricted

@@ -194,7 +194,7 @@ def changes(
     sources = ((system.by_film @ every, -system.density), (system.wedge, 0.0 * every))[:inputs]
     # what is not in the pressure: H_1 without deflection, and the load outside
     moved = (-1.0, 0.0)
-    outside = ((0.0, 0.0 if slopes is None else -slopes.load_by_rate), (level.sources.outside, 0.0))
+    outside = ((0.0, 0.0 if slopes is None else -slopes.load_by_rate), (level.outside, 0.0))
     found = np.zeros((2, 2, 2, omegas.size))
     pressure = np.zeros((omegas.size, every.size))
     with one_thread():

@@ -130,6 +130,7 @@ class Stepper:
         moment, moved = self.schedule.moments[number], self.schedule.moved(number)
         if moved is not None:
             coupling.begin_step(moment, [way / level.grid.dx for way in moved])
+        self.solver.hierarchy.coarsest.last = None  # that of the last step a resumed run lacks
         history, start = self.oil.brought(number), level.state()
         equations = self.equations.at(moment, self.solver.hierarchy.scaled)
         first = self.setting

@@ -1,0 +1,136 @@
+"""The solver of the coarsest level: Newton's method for pressure and rigid approach together."""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg.lapack import dgetrf, dgetrs
+
+from tehl.base.typing import Array, IntArray
+from tehl.kernels.coarsest import SLOTS, Coarse, CoarseSystem, Work, fill_step, take_step
+from tehl.operators.influence import matrix_of
+from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.linearised import linearised, residual_of
+from tehl.solver.cycle.newton import one_thread
+
+MOST_CARRIED, MOST_HALVINGS = 1.5, 8
+"""Pressure of the asperities beyond which a Newton step is halved, over that of Hertz, which they
+exceed by little even when dry; and most times."""
+LONGEST_STEP = 0.3
+"""Largest change of pressure in a Newton step, in Hertz pressures."""
+CONTRACTION = 0.3
+"""Second over first step with the matrix of an earlier state, above which that is too far away."""
+
+
+class Factored(NamedTuple):
+    """A linearised system: its state and nodes, how many are free, LU factors and pivots."""
+
+    state: Coarse
+    work: Work
+    size: int
+    factors: Array
+    pivots: IntArray
+
+
+class CoarsestSolver:
+    """Newton's method for pressure and rigid approach together on the coarsest level.
+
+    The equations are L(P, H00 + K P + g) = f at the wet nodes and sum(P) dx dy = w, with the dense
+    matrix K and the derivatives of the conductance by pressure and film. The rigid approach moves
+    all pressures at once, so no local relaxation finds it; here it costs one more unknown.
+    """
+
+    def __init__(self, level: Level) -> None:
+        self.level = level
+        equations = level.equations
+        grid = equations.grid
+        self.influence = matrix_of(grid, equations.influence)
+        self.last: Factored | None = None
+
+    def step(self) -> None:
+        """Perform a Newton step in place, or two with an earlier matrix if these converge.
+
+        The state changes little from cycle to cycle, and the matrix takes ten times as long as the
+        rest (simplified Newton method: Deuflhard 2011, section 2.1).
+        """
+        before = self.level.state()
+        if self.last is not None:
+            first = self._take(self.last)
+            if self._take(self.last) < CONTRACTION * first:
+                return
+            self.level.set_state(*before)
+        self.newton_step()
+
+    def newton_step(self) -> float:
+        """Perform a Newton step of limited length in place; return the largest change of P."""
+        level = self.level
+        level.update()
+        self.last = self._factored()
+        return self._take(self.last)
+
+    def _system(self) -> CoarseSystem:
+        level = self.level
+        laws, answer = level.equations.asperities, level.share.response
+        return CoarseSystem(
+            residual=residual_of(level).ravel(),
+            influence=self.influence,
+            frozen=level.smoother.frozen.ravel(),
+            area=level.equations.load.area,
+            missing_load=level.missing_load(),
+            yielding=0.0 if answer is None else answer.stiffness,
+            nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
+        )
+
+    def _factored(self) -> Factored:
+        """Return the linearised system of the present state."""
+        level = self.level
+        nodes, nx = level.film.p.size, level.film.p.shape[1]
+        work = Work(
+            matrix=np.empty((nodes + 1, nodes + 1)),
+            rhs=np.empty(nodes + 1),
+            free=np.empty(nodes, np.int64),
+            full=np.empty(nodes),
+            near=np.empty(SLOTS, np.int64),
+            by_p=np.empty(SLOTS),
+            by_h=np.empty(SLOTS),
+            dry=np.zeros(nodes, np.uint8),
+        )
+        state = Coarse._make(field.ravel() for field in linearised(level))
+        count = fill_step(state, level.equations.robust, self._system(), work, nx)
+        with one_thread():
+            # a row is a column of LAPACK
+            factors, pivots, _ = dgetrf(work.matrix[: count + 1, : count + 1].T)
+        return Factored(state, work._replace(matrix=np.empty((0, 0))), count, factors, pivots)
+
+    def _take(self, known: Factored) -> float:
+        """Take a step of limited length by a linearised system; return the largest change of P."""
+        level, film = self.level, self.level.film
+        level.update()
+        system, work, free = self._system(), known.work, known.work.free[: known.size]
+        before = level.pressure.copy()
+        carried = film.p.copy(), film.asperity.copy()
+        work.rhs[: known.size] = np.where(work.dry[free], 0.0, system.residual[free])
+        work.rhs[known.size] = system.missing_load
+        with one_thread():
+            step, _ = dgetrs(known.factors, known.pivots, work.rhs[: known.size + 1], trans=1)
+        work.rhs[: known.size + 1] = step
+        state = known.state._replace(p=film.p.ravel(), asperity=film.asperity.ravel())
+        change = take_step(state, system, work, known.size, LONGEST_STEP)
+        level.move(change)
+        if level.equations.asperities is not None:
+            self._shorten(carried, change)
+        return float(np.abs(level.pressure - before).max())
+
+    def _shorten(self, before: tuple[Array, Array], change: float) -> None:
+        """Halve a step until the asperities, steep as they are, carry no more than is likely."""
+        level, film = self.level, self.level.film
+        after = film.p.copy(), film.asperity.copy()
+        largest = max(MOST_CARRIED, 2.0 * before[1].max())
+        for _ in range(MOST_HALVINGS):
+            level.update()
+            if film.asperity.max() <= largest:
+                return
+            change *= 0.5
+            level.move(-change)
+            for one, old, new in zip((film.p, film.asperity), before, after, strict=True):
+                new[:] = 0.5 * (old + new)
+                one[:] = new

@@ -1,0 +1,55 @@
+"""The solver of the coarsest grid: Newton steps, and steps with an earlier matrix."""
+
+import numpy as np
+import pytest
+
+from tehl.contact.options import Options
+from tehl.solver.cycle.coarsest import CoarsestSolver
+from tehl.solver.cycle.start import from_dry_pressure
+from tests.reference import DOMAIN, moes_contact
+from tests.solver.runs import multigrid
+
+STEPS = 7
+"""Newton steps from the Hertz pressure to rounding errors."""
+
+
+@pytest.fixture
+def solved() -> CoarsestSolver:
+    """Return a coarsest grid whose equations are solved."""
+    hierarchy = multigrid(moes_contact(100.0, 10.0), Options(points=65, domain=DOMAIN)).hierarchy
+    from_dry_pressure(hierarchy.levels[0], hierarchy.expected_film)
+    for _ in range(STEPS):
+        change = hierarchy.coarsest.newton_step()
+    assert change < 1e-6
+    return hierarchy.coarsest
+
+
+def stepped(solver: CoarsestSolver, load: float, *, newton: bool) -> tuple[np.ndarray, float]:
+    """Return pressure and rigid approach after a step under ``load`` times the load."""
+    level = solver.level
+    start, target = level.state(), level.sources.load
+    level.sources.load *= load
+    (solver.newton_step if newton else solver.step)()
+    found = level.pressure.copy(), level.rigid_approach
+    level.set_state(*start)
+    level.sources.load = target
+    return found
+
+
+def test_an_earlier_matrix_solves_equations_that_changed_little(solved):
+    known = solved.last
+    pressure, approach = stepped(solved, 1.02, newton=False)
+    assert solved.last is known
+    exact, there = stepped(solved, 1.02, newton=True)
+    moved = np.abs(exact - solved.level.pressure).max()
+    assert np.abs(pressure - exact).max() < 0.05 * moved
+    assert approach == pytest.approx(there, abs=0.05 * abs(there - solved.level.rigid_approach))
+
+
+def test_where_it_does_not_a_newton_step_takes_its_place(solved):
+    known = solved.last
+    pressure, approach = stepped(solved, 3.0, newton=False)
+    assert solved.last is not known
+    exact, there = stepped(solved, 3.0, newton=True)
+    assert pressure == pytest.approx(exact, abs=1e-12)
+    assert approach == pytest.approx(there, abs=1e-12)
