@@ -193,3 +193,4 @@ def test_a_list_of_contacts_may_have_lines():
     table = tehl.solve_contacts(pd.DataFrame([row]))
     assert table["status"].tolist() == ["converged"]
     assert table["Moes M"].iloc[0] == pytest.approx(8.58, rel=1e-3)
+    assert table["rolling moment [N mm]"].iloc[0] > 0.0
