@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from tehl.kernels import compiled, warmup
+from tehl.kernels import cache, compiled, warmup
 
 SOLVED = """
 import importlib, pkgutil
@@ -120,3 +120,9 @@ def test_a_damaged_cache_is_compiled_again(monkeypatch):
 def test_helpers_are_left_to_their_callers():
     """A failure means: numba's internals changed; kernels compile in 1.5 times the time."""
     assert compiled.can_leave_to_callers()
+
+
+def test_a_folder_that_a_newer_source_removed_is_no_error(monkeypatch, tmp_path):
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path / "removed")
+    cache.mark_compiled("isothermal")
+    assert cache.is_cold(coupled=False)

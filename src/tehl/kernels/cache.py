@@ -9,6 +9,7 @@ import os
 import shutil
 import sys
 import tempfile
+from contextlib import suppress
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -53,9 +54,13 @@ def is_cold(*, coupled: bool) -> bool:
 
 
 def mark_compiled(part: str) -> None:
-    """Record that one of `PARTS` is compiled by this Python and this numba."""
+    """Record that one of `PARTS` is compiled by this Python and this numba.
+
+    Nothing is recorded where a newer source has removed the folder while this process runs.
+    """
     if folder() is not None:
-        _mark(part).touch()
+        with suppress(FileNotFoundError):
+            _mark(part).touch()
 
 
 def clear() -> None:
