@@ -103,6 +103,30 @@ def test_traction_raises_the_shear_below_a_line_and_brings_it_to_the_surface():
     assert int(np.argmax(np.hypot(0.5 * (xx - zz), zx).max(axis=1))) == 0
 
 
+@pytest.mark.parametrize(("mirror", "depth"), [(False, 0.4), (True, 0.4), (True, 0.8)])
+def test_deep_down_fewer_waves_and_rows_give_the_same_stresses(mirror, depth):
+    """Of rough loads that end inside the grid, symmetric about the middle row or about none."""
+    draw, shape, spacing = np.random.default_rng(3), (65, 57), (0.04, 0.03)
+    y, x = (np.linspace(-1.4, 1.4, size) for size in shape)
+    hertz = np.sqrt(np.maximum(1.0 - x**2 - y[:, None] ** 2, 0.0))
+    loads = [hertz * draw.uniform(0.5, 1.5, shape) for _ in range(3)]
+    if mirror:
+        loads = [one + sign * one[::-1] for one, sign in zip(loads, (1, 1, -1), strict=True)]
+    every = HalfSpace(shape, spacing)
+    space = HalfSpace(shape, spacing, row=32, mirror=mirror)
+    steps = space.steps(depth)
+    full = every.stresses(every.spectra_of(*loads), every.influence(depth), NU)
+    spectra = space.thinned(space.spectra_of(*loads), steps)
+    thin = space.stresses(spectra, space.influence(depth, steps), NU)
+    assert steps == ((2, 2) if depth == 0.4 else (4, 4))
+    rows = space.rows(steps)
+    largest = np.abs(full).max()
+    np.testing.assert_allclose(thin, full[:, rows], atol=1e-5 * largest)
+    column = space.on_all_rows(thin[:, :, 20], steps)
+    np.testing.assert_allclose(column[:, rows], full[:, rows, 20], atol=1e-5 * largest)
+    assert column[:, 5:-5] == pytest.approx(full[:, 5:-5, 20], abs=3e-3 * largest)
+
+
 LENGTHS = (3.0, 2.0)
 
 

@@ -1,13 +1,14 @@
 """Stress below the surfaces of a result, depth by depth; only one depth is in memory at a time."""
 
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from functools import cache, partial
+from typing import NamedTuple
 
 import numpy as np
 
 from tehl.base.typing import Array
 from tehl.contact.stress import Stress
-from tehl.post.stress.influence import COMPONENTS, HalfSpace, Influence
+from tehl.post.stress.influence import COMPONENTS, HalfSpace, Influence, Spectra, Steps
 from tehl.post.stress.loads import SurfaceLoads, left_out, loads_on, parts_of_cells
 from tehl.post.stress.measures import Worst, largest_shear, worst
 from tehl.post.stress.thermal import (
@@ -30,8 +31,11 @@ class Case(NamedTuple):
     heat: Heated | None = None
 
 
-Body = tuple[Any, Case, ThermalStress | RestingStress | None]
-"""Spectra of the loads, the case, and its thermal stress."""
+Body = tuple[Callable[[Steps], Spectra], Case, ThermalStress | RestingStress | None]
+"""Spectra of the loads by the nodes that a depth needs, the case, and its thermal stress."""
+SYMMETRY = 1e-6
+"""Largest difference of loads on both sides of the middle, over the pressure, that counts as none:
+that of single precision."""
 
 
 class Grid(NamedTuple):
@@ -66,7 +70,8 @@ def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress
         The table ``[stress]``; that of the case by default, or the defaults.
     """
     settings = settings or result.problem.stress or Stress()
-    loads = [loads_on(result, body) for body in settings.bodies]
+    without_shear = left_out(result)
+    loads = [loads_on(result, body, without_shear=without_shear) for body in settings.bodies]
     window = window_of(result, loads[0].pressure)
     depths, sides = depths_of(result, settings, window), wake(result, settings, window)
     heats = [heated_body(result, body, window, sides) for body in settings.bodies]
@@ -84,7 +89,7 @@ def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress
     row, column = middle_row(result, window), int(np.argmin(np.abs(x)))
     grid = Grid(window.spacing, kept, row, column)
     march = March(depths, settings, result.scales.hertz_pressure)
-    fine = march.through([*cases, *dry], grid)
+    fine = march.through([*cases, *dry], grid, len(cases))
     coarse = march.through([_coarser(one) for one in (*cases, *dry)], grid.coarser).found
     n = len(cases)
     dry_part, found = fine.found[n:][which], fine.found[:n]
@@ -95,8 +100,8 @@ def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress
         depth=depths,
         x=x,
         y=y,
-        **{name: fine.along[:n, k] for k, name in enumerate(COMPONENTS)},
-        across=fine.across[:n],
+        **{name: fine.along[:, k] for k, name in enumerate(COMPONENTS)},
+        across=fine.across,
         floor=np.array([largest_shear(one) for one in floors]),
         floor_depth=depths[level],
         shear=_column(found, "shear"),
@@ -112,7 +117,7 @@ def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress
         life=march.life(found, dry_part),
         life_coarse=march.life(coarse[:n], coarse[n:][which]),
         traction=np.array([one.loads.traction_x.sum() / one.loads.pressure.sum() for one in cases]),
-        left_out=np.array(float(left_out(result))),
+        left_out=np.array(float(without_shear)),
         thermal=np.array([0.0 if one is None else one.surface_stress for one in heats]),
     )
 
@@ -131,9 +136,9 @@ class Marched(NamedTuple):
     """(n, nz, 7): `Worst` of each case and depth [Pa], places in nodes; ``risk`` in the pressure
     scale."""
     along: Array
-    """(n, 6, nz, nx): Components along the row nearest to y = 0 [Pa]."""
+    """(planes, 6, nz, nx): Components along the row nearest to y = 0 [Pa]."""
     across: Array
-    """(n, nz, ny): Largest shear stress along the column nearest to x = 0 [Pa]."""
+    """(planes, nz, ny): Largest shear stress along the column nearest to x = 0 [Pa]."""
 
 
 class March:
@@ -144,7 +149,7 @@ class March:
         points = np.array(settings.residual or ((0.0, 0.0),))
         self._residual = np.interp(depths, *points.T)
 
-    def through(self, cases: Sequence[Case], grid: Grid) -> Marched:
+    def through(self, cases: Sequence[Case], grid: Grid, planes: int = 0) -> Marched:
         """Go through the depths.
 
         Parameters
@@ -153,25 +158,35 @@ class March:
             On the same nodes.
         grid : Grid
             Those nodes.
+        planes : int
+            Number of cases, the first ones, of which planes are kept.
         """
         ny, wide = cases[0].loads.pressure.shape
-        space = HalfSpace((ny, wide), grid.spacing, single=True)
-        bodies = [self._body(case, space) for case in cases]
-        size = len(cases), self.depths.size
-        nx = len(range(*grid.kept.indices(wide)))
-        found = np.empty((*size, len(Worst._fields)))
-        along, across = np.empty((len(cases), 6, self.depths.size, nx)), np.empty((*size, ny))
+        heats = [None if case.heat is None else thermal_stress_of(case.heat) for case in cases]
+        loads = [_with_heat(case.loads, heat) for case, heat in zip(cases, heats, strict=True)]
+        mirror = all(_symmetric(one, grid.row) for one in loads)
+        space = HalfSpace((ny, wide), grid.spacing, single=True, row=grid.row, mirror=mirror)
+        bodies = [self._body(*one, space) for one in zip(cases, loads, heats, strict=True)]
+        nx, size = len(range(*grid.kept.indices(wide))), self.depths.size
+        found = np.empty((len(cases), size, len(Worst._fields)))
+        along, across = np.empty((planes, 6, size, nx)), np.empty((planes, 6, size, ny))
         limit = self.settings.fatigue_limit / self.scale
         for k, depth in enumerate(self.depths):
-            influence = space.influence(float(depth))
+            steps = space.steps(float(depth))
+            influence, rows = space.influence(float(depth), steps), space.rows(steps)
+            weights = np.full(len(range(*rows.indices(ny))), (2.0 if mirror else 1.0) * rows.step)
+            weights[0] = rows.step
             for number, body in enumerate(bodies):
                 stress = self._stress(body, space, influence, grid, k)
-                found[number, k] = worst(stress, self.settings, limit)
-                along[number, :, k] = stress[:, grid.row] * self.scale
-                across[number, k] = largest_shear(stress[:, :, grid.column]) * self.scale
+                one = worst(stress, self.settings, limit, weights)
+                found[number, k] = one._replace(row=rows.start + rows.step * one.row)
+                if number < planes:
+                    along[number, :, k] = stress[:, (grid.row - rows.start) // rows.step]
+                    across[number, :, k] = space.on_all_rows(stress[:, :, grid.column], steps)
         found[..., :4] *= self.scale
         found[..., 4] *= grid.spacing[0]
-        return Marched(found, along, across)
+        across = largest_shear(np.moveaxis(across, 1, 0)) * self.scale
+        return Marched(found, along * self.scale, across)
 
     def at(self, case: Case, grid: Grid, level: int) -> Array:
         """Return the components at one of the depths, (6, ny, nx) [Pa].
@@ -185,15 +200,20 @@ class March:
         """
         space = HalfSpace(case.loads.pressure.shape, grid.spacing, single=True)
         influence = space.influence(float(self.depths[level]))
-        return self._stress(self._body(case, space), space, influence, grid, level) * self.scale
-
-    def _body(self, case: Case, space: HalfSpace) -> Body:
-        """Return the spectra of the loads of a body, itself, and its thermal stress."""
         heat = None if case.heat is None else thermal_stress_of(case.heat)
-        loads = list(case.loads)
-        if heat is not None:
-            loads = [one + more for one, more in zip(loads, heat.loads(), strict=True)]
-        return space.spectra_of(*(load / self.scale for load in loads)), case, heat
+        body = self._body(case, _with_heat(case.loads, heat), heat, space)
+        return self._stress(body, space, influence, grid, level) * self.scale
+
+    def _body(
+        self,
+        case: Case,
+        loads: SurfaceLoads,
+        heat: ThermalStress | RestingStress | None,
+        space: HalfSpace,
+    ) -> Body:
+        """Return the spectra of the loads of a body, itself, and its thermal stress."""
+        spectra = space.spectra_of(*(load / self.scale for load in loads))
+        return cache(partial(space.thinned, spectra)), case, heat
 
     def _stress(
         self,
@@ -205,9 +225,10 @@ class March:
     ) -> Array:
         """Return the components at a depth, over the pressure scale."""
         spectra, case, heat = body
-        stress = space.stresses(spectra, influence, case.poisson_ratio)[..., grid.kept]
+        steps = space.steps_of(influence)
+        stress = space.stresses(spectra(steps), influence, case.poisson_ratio)[..., grid.kept]
         if heat is not None:
-            added = heat.stresses(float(self.depths[level]))
+            added = heat.stresses(float(self.depths[level]))[:, space.rows(steps)]
             stress += added[..., grid.kept] / self.scale
         stress[:2] += self._residual[level] / self.scale
         return stress
@@ -258,6 +279,25 @@ def _coarser(case: Case) -> Case:
     """Return a case on every second node."""
     loads, heat = SurfaceLoads(*map(halved, case.loads)), case.heat
     return Case(loads, case.poisson_ratio, None if heat is None else heat.coarser(halved))
+
+
+def _with_heat(loads: SurfaceLoads, heat: ThermalStress | RestingStress | None) -> SurfaceLoads:
+    """Return loads with those that free the surface of thermal stress."""
+    if heat is None:
+        return loads
+    return SurfaceLoads(*(one + more for one, more in zip(loads, heat.loads(), strict=True)))
+
+
+def _symmetric(loads: SurfaceLoads, row: int) -> bool:
+    """Whether loads have the same stresses on both sides of a row."""
+    if row == 0 or loads.pressure.shape[0] != 2 * row + 1:
+        return False
+    least = SYMMETRY * float(loads.pressure.max())
+    *even, odd = loads
+    return all(
+        np.abs(one - sign * one[::-1]).max() <= least
+        for one, sign in ((even[0], 1.0), (even[1], 1.0), (odd, -1.0))
+    )
 
 
 def _column(found: Array, name: str) -> Array:

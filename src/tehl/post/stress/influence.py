@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import dct, dst, ifft, irfft, next_fast_len, rfft2
+from scipy.interpolate import CubicSpline
 
 from tehl.base.typing import Array
 
@@ -27,29 +28,86 @@ _PARITIES = (
     (ODD_Y, ODD_Y, ODD_Y, ODD_X, EVEN, ODD_XY),
 )
 """Symmetry of the components under a load at the origin: pressure, traction along x and along y."""
+_MIRRORED = np.array([1.0, 1.0, 1.0, -1.0, -1.0, 1.0])[:, None, None]
+"""Signs of the components on the other side of a plane y = const of symmetry."""
 
 Spectra = list[NDArray[Any] | None]
 Influence = tuple[Array, Array, Array, Array]
+Steps = tuple[int, int]
+"""Nodes along y and x to the next one that a depth needs."""
+MOST_STEPS, DEPTH_OF_STEPS = 4, 5.0
+"""Most nodes to the next, a power of two, and depth over that distance from which a wave of two
+such distances has decayed by e^(-5 pi) = 1.5e-7."""
+SPARE = 2
+"""Such distances between the end of the grid and where its period begins: odd kernels jump there,
+and a jump of few waves oscillates."""
 
 
 class HalfSpace:
     """A half-space under loads on a grid, whose stresses are found depth by depth.
 
-    A grid of one row with a very wide cell is a line contact.
+    A grid of one row with a very wide cell is a line contact. Short waves decay with the depth:
+    deep down every second or fourth wave number, node and row are enough (`steps`). Of loads that
+    are symmetric about a row (``mirror``) only the rows from it on are computed.
     """
 
     def __init__(
-        self, shape: tuple[int, int], spacing: tuple[float, float], *, single: bool = False
+        self,
+        shape: tuple[int, int],
+        spacing: tuple[float, float],
+        *,
+        single: bool = False,
+        row: int = 0,
+        mirror: bool = False,
     ) -> None:
         """Take a grid of (ny, nx) nodes and its mesh widths (dy, dx), in any unit of length.
 
-        In ``single`` precision stresses take half the time, with errors of 1e-6 of the load.
+        In ``single`` precision stresses take half the time, with errors of 1e-6 of the load. The
+        ``row`` is one of those at all depths.
         """
-        self.shape = shape
+        self.shape, self.spacing = shape, spacing
+        self.row, self.mirror = row, mirror
         self._kind: Any = np.float32 if single else np.float64
-        self._half = tuple(next_fast_len(max(n, 2), real=True) for n in shape)
-        y, x = ((np.arange(n + 2) - 0.5) * d for n, d in zip(self._half, spacing, strict=True))
-        self._y, self._x = y[:, None], x[None, :]
+        self._half = tuple(
+            MOST_STEPS * next_fast_len(math.ceil(n / MOST_STEPS) + SPARE, real=True) if n > 1 else 2
+            for n in shape
+        )
+
+    def steps(self, depth: float) -> Steps:
+        """Return the nodes along y and x to the next one that a depth needs."""
+        along_y, along_x = (
+            1 if n == 1 else _step(depth / d) for n, d in zip(self.shape, self.spacing, strict=True)
+        )
+        return along_y, along_x
+
+    def steps_of(self, influence: Influence) -> Steps:
+        """Return the steps for which an influence is."""
+        sizes = influence[0].shape[1:]
+        along_y, along_x = (n // (size - 1) for n, size in zip(self._half, sizes, strict=True))
+        return along_y, along_x
+
+    def rows(self, steps: Steps) -> slice:
+        """Return the rows that are left."""
+        return slice(self.row if self.mirror else self.row % steps[0], None, steps[0])
+
+    def on_all_rows(self, values: Array, steps: Steps) -> Array:
+        """Return components along a column on all rows, (6, ny), by cubic splines.
+
+        Parameters
+        ----------
+        values : (6, rows) array
+            On the rows that are left.
+        steps : Steps
+            Of the depth, by `steps`.
+        """
+        rows, every = self.rows(steps), np.arange(self.shape[0])
+        places = every[rows]
+        if self.mirror:
+            places = np.concatenate([2 * self.row - places[:0:-1], places])
+            values = np.concatenate([_MIRRORED[..., 0] * values[:, :0:-1], values], axis=1)
+        if rows.step == 1:
+            return values
+        return np.asarray(CubicSpline(places, values, axis=1)(every))
 
     def spectra_of(self, pressure: Array, *tractions: Array) -> Spectra:
         """Return the transforms of loads, for `stresses`; None for a load that is zero.
@@ -71,7 +129,35 @@ class HalfSpace:
         sign = np.array([1.0, -1.0], self._kind)[:, None, None]
         return np.stack([both, -1j * both, -1j * sign * both, -sign * both])
 
-    def influence(self, depth: float) -> Influence:
+    def thinned(self, spectra: Spectra, steps: Steps) -> Spectra:
+        """Return the wave numbers of loads that some depths need.
+
+        Parameters
+        ----------
+        spectra : Spectra
+            By `spectra_of`.
+        steps : Steps
+            Of the depths, by `steps`.
+        """
+        first = self.rows(steps).start
+        if steps == (1, 1) and not self.mirror:
+            return spectra
+        parts = []
+        for half, step in zip(self._half, steps, strict=True):
+            angle = np.arange(half // step + 1) / (2.0 * half)
+            # the cells of the kernels are wider
+            parts.append(np.sinc(angle) / np.sinc(step * angle))
+        rows, columns = (part.size for part in parts)
+        shift = np.exp(1j * np.pi * first / self._half[0] * np.arange(rows))
+        both = np.stack([shift, shift.conj()])[: 1 if self.mirror else 2, :, None]
+        weight = both * parts[0][:, None] * parts[1] / steps[0]
+        weight = weight.astype(np.result_type(self._kind, np.complex64))
+        return [
+            None if one is None else one[:, : len(both), :rows, :columns] * weight
+            for one in spectra
+        ]
+
+    def influence(self, depth: float, steps: Steps = (1, 1)) -> Influence:
         """Return the transforms of the derivatives of the potentials at a depth, real.
 
         Those of kernels that are even in x and y, odd in x, in y, and in both; a sine transform
@@ -81,10 +167,16 @@ class HalfSpace:
         ----------
         depth : float
             Below the surface, positive, in the unit of the mesh widths.
+        steps : Steps
+            Of the depth, by `steps`.
         """
-        corners = _corners(self._x, self._y, depth)
+        y, x = (
+            (np.arange(half // step + 2) - 0.5) * step * d
+            for half, step, d in zip(self._half, steps, self.spacing, strict=True)
+        )
+        corners = _corners(x[None, :], y[:, None], depth)
         even, odd_x, odd_y, odd_xy = (
-            np.asarray(np.diff(np.diff(one, axis=-1), axis=-2) / (2.0 * math.pi), self._kind)
+            np.diff(np.diff(one, axis=-1) / (2.0 * math.pi), axis=-2).astype(self._kind)
             for one in corners
         )
         return (
@@ -95,28 +187,38 @@ class HalfSpace:
         )
 
     def stresses(self, spectra: Spectra, influence: Influence, poisson_ratio: float) -> Array:
-        """Return the components of the stress, (6, ny, nx), in the unit of the loads.
+        """Return the components of the stress, (6, rows, nx), in the unit of the loads.
 
         Parameters
         ----------
         spectra : Spectra
-            Of the loads, by `spectra_of`.
+            Of the loads, by `spectra_of` and `thinned`.
         influence : Influence
             Of the depth, by `influence`.
         poisson_ratio : float
             Of the body.
         """
         parts = (_of_pressure, _of_traction_x, _of_traction_y)
-        kind = np.result_type(self._kind, np.complex64)
-        total = np.zeros((6, 2, self._half[0] + 1, self._half[1] + 1), kind)
+        (ny, nx), kind = influence[0].shape[1:], np.result_type(self._kind, np.complex64)
+        total = np.zeros((6, 1 if self.mirror else 2, ny, nx), kind)
         for spectrum, part, parities in zip(spectra, parts, _PARITIES, strict=False):
             if spectrum is not None:
                 kernels = part(influence, poisson_ratio)
                 for k, (kernel, parity) in enumerate(zip(kernels, parities, strict=True)):
                     total[k] += spectrum[parity] * kernel
-        (ny, nx), lines = self.shape, np.concatenate([total[:, 0], total[:, 1, -2:0:-1]], axis=1)
-        rows = ifft(lines, axis=1, overwrite_x=True)[:, :ny]
-        return np.asarray(irfft(rows, 2 * self._half[1], axis=2)[..., :nx])
+        number = len(range(*self.rows(self.steps_of(influence)).indices(self.shape[0])))
+        other = total[:, 0] * _MIRRORED.astype(self._kind) if self.mirror else total[:, 1]
+        lines = np.concatenate([total[:, 0], other[:, -2:0:-1]], axis=1)
+        rows = ifft(lines, axis=1, overwrite_x=True)[:, :number]
+        return np.asarray(irfft(rows, 2 * self._half[1], axis=2)[..., : self.shape[1]])
+
+
+def _step(depth: float) -> int:
+    """Return the nodes to the next that a depth in mesh widths needs."""
+    step = 1
+    while step < MOST_STEPS and depth >= 2 * step * DEPTH_OF_STEPS:
+        step *= 2
+    return step
 
 
 def _corners(x: Array, y: Array, z: float) -> tuple[Array, Array, Array, Array]:

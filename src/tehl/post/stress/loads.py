@@ -20,7 +20,7 @@ class SurfaceLoads(NamedTuple):
     """Force on the body over area."""
 
 
-def loads_on(result: Solution, body: int) -> SurfaceLoads:
+def loads_on(result: Solution, body: int, *, without_shear: bool | None = None) -> SurfaceLoads:
     """Return the loads on a body.
 
     The shear stress of the film acts where there is pressure. That of a Newtonian film which would
@@ -33,13 +33,17 @@ def loads_on(result: Solution, body: int) -> SurfaceLoads:
         Steady, computed or loaded.
     body : {1, 2}
         The body below z = 0 or above z = h.
+    without_shear : bool or None
+        Whether the shear stress of the film is left out; `left_out` by default.
     """
+    if without_shear is None:
+        without_shear = left_out(result)
     sign = 1.0 if body == 1 else -1.0  # its surface is the lower or the upper end of the film
     film = np.maximum(result.pressure, 0.0)
     total, rubbed = film.copy(), rubbing(result)
     stress_x, stress_y = np.zeros_like(film), np.zeros_like(film)
     shear = result.shear
-    if shear is not None and not left_out(result):
+    if shear is not None and not without_shear:
         wet = film > 0.0
         stress_x = np.where(wet, getattr(shear, f"surface_{body}"), 0.0)
         stress_y = np.where(wet, shear.across - sign * _rolling_across(result, film), 0.0)

@@ -1,11 +1,15 @@
 """What a stress does to a material: largest shear, von Mises, amplitudes of a rolling cycle."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from tehl.base.typing import Array
 from tehl.contact.stress import Stress
+
+LEAST_SHEAR = 0.866
+"""Largest shear over the root of J2: at least sqrt(3)/2, and at most one."""
 
 
 def largest_shear(stress: Array) -> Array:
@@ -16,10 +20,14 @@ def largest_shear(stress: Array) -> Array:
     stress : (6, ...) array
         Components as in `influence.COMPONENTS`.
     """
+    return _shear(stress, _second_invariant(stress))
+
+
+def _shear(stress: Array, second: Array) -> Array:
+    """Return the largest shear stress where J2 is known."""
     xx, yy, zz, xy, yz, zx = stress
     mean = (xx + yy + zz) / 3.0
     xx, yy, zz = xx - mean, yy - mean, zz - mean
-    second = _second_invariant(stress)
     third = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx)
     root = np.sqrt(second)
     ratio = np.divide(
@@ -55,7 +63,7 @@ class Worst(NamedTuple):
     """Where the largest shear is."""
 
 
-def worst(stress: Array, settings: Stress, limit: float) -> Worst:
+def worst(stress: Array, settings: Stress, limit: float, weights: Array) -> Worst:
     """Return what is largest at one depth, where each line along x is a cycle of the material.
 
     Parameters
@@ -66,21 +74,36 @@ def worst(stress: Array, settings: Stress, limit: float) -> Worst:
         With the constants of fatigue.
     limit : float
         Fatigue limit in the unit of the stress.
+    weights : (ny,) array
+        Of the rows in the sum over y.
     """
-    shear = largest_shear(stress)
-    row, column = np.unravel_index(int(np.argmax(shear)), shear.shape)
+    second = _second_invariant(stress)
+    most = float(second.max())
+    near = np.flatnonzero(second.ravel() >= LEAST_SHEAR**2 * most)
+    shear = _shear(stress.reshape(6, -1)[:, near], second.ravel()[near])
+    row, column = np.unravel_index(near[int(np.argmax(shear))], second.shape)
     low, high = stress.min(axis=-1, keepdims=True), stress.max(axis=-1, keepdims=True)
     orthogonal = 0.5 * (high - low)[5, :, 0]
-    alternating = largest_shear(stress - 0.5 * (low + high))
-    tension = stress[:3].sum(axis=0) / 3.0
-    dang_van = (alternating + settings.dang_van_slope * tension).max(axis=-1)
+    tension = settings.dang_van_slope / 3.0 * stress[:3].sum(axis=0)
+    dang_van = _largest_along(stress - 0.5 * (low + high), tension)
     damaging = orthogonal if settings.criterion == "orthogonal-shear" else dang_van
     return Worst(
-        shear=float(shear[row, column]),
-        von_mises=float(von_mises(stress).max()),
+        shear=float(shear.max()),
+        von_mises=math.sqrt(3.0 * most),
         orthogonal=float(orthogonal.max()),
         dang_van=float(dang_van.max()),
-        risk=float((np.maximum(damaging - limit, 0.0) ** settings.stress_exponent).sum()),
+        risk=float(np.maximum(damaging - limit, 0.0) ** settings.stress_exponent @ weights),
         row=float(row),
         column=float(column),
     )
+
+
+def _largest_along(stress: Array, added: Array) -> Array:
+    """Return the largest sum of the largest shear and ``added`` on each line along x, (ny,)."""
+    second = _second_invariant(stress)
+    root = np.sqrt(second)
+    least = (LEAST_SHEAR * root + added).max(axis=-1, keepdims=True)
+    near = root + added >= least
+    found = np.where(near, added, -np.inf)
+    found[near] += _shear(stress[:, near], second[near])
+    return np.asarray(found.max(axis=-1))

@@ -66,7 +66,7 @@ def moving_stress(
     planes, largest = [], []
     for number in range(frames.step.size):
         case = Case(cut(frame_loads(run, number, body), window), ratio)
-        marched = march.through([case], grid)
+        marched = march.through([case], grid, 1)
         planes.append(largest_shear(marched.along[0]))
         largest.append(marched.found[0])
     worst = np.array(largest)
