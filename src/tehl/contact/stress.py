@@ -10,10 +10,6 @@ from tehl.base.units import Height, NonNegativeStress, Number, Quantity
 
 SolidStress = Annotated[float, Quantity("a stress", "Pa", '"-300 MPa"', "any")]
 
-LEAST_THERMAL_PECLET = 2.0
-"""Solid Peclet number |u_s| a_x/(2 kappa_s) from which the thermal stress is computed: below it,
-heat runs ahead of the contact further than the nodes reach."""
-
 
 class Stress(Table):
     """Stress below both surfaces, and measures of fatigue over those of the dry smooth contact."""

@@ -209,7 +209,7 @@ class BodyStress(_ReadOnly):
     """(): 1 where the shear stress of the film is more than any oil can carry: it is left out."""
     thermal: Array
     """(n,): Largest compression along the surface by heat, if it counts [Pa]; zero if it does not,
-    or the body is too slow."""
+    or is left out."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -66,7 +66,7 @@ def stress_quantities() -> Iterator[Quantity]:
         shown = _SHOWN.get(key, {})
         yield Quantity(f"stress.{key}", attrgetter(f"worse.{name}"), error=bar, **shown)
     yield Quantity("stress.body", attrgetter("worse.body"))
-    for key in ("shallowest_m", "traction_left_out", "too_slow", "counts_roughness"):
+    for key in ("shallowest_m", "traction_left_out", "heat_left_out", "counts_roughness"):
         yield Quantity(f"stress.{key}")
     for body in (1, 2):
         for key, name in _KEYS.items():

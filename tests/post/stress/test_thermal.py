@@ -1,6 +1,7 @@
 """Thermal stress of a moving half-space: Jaeger's source, free surface, equilibrium, layers."""
 
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,10 +14,12 @@ from tehl.contact.materials import material
 from tehl.contact.stress import Stress
 from tehl.io.templates import template_text
 from tehl.post.stress.below import stress_below
+from tehl.post.stress.heated import thermal_stress_of
 from tehl.post.stress.influence import HalfSpace
 from tehl.post.stress.numbers import stress_numbers
 from tehl.post.stress.periodic import periodic_stresses
-from tehl.post.stress.thermal import Heated, ThermalStress, thermal_stress_of
+from tehl.post.stress.slow import RestingStress, SlowStress, free_stresses
+from tehl.post.stress.thermal import Heated, ThermalStress
 
 STEEL = material("steel")
 UNIT = STEEL.young_modulus * STEEL.expansion / (1.0 - STEEL.poisson_ratio)
@@ -173,21 +176,97 @@ def test_a_body_at_rest_under_a_round_spot_has_half_of_e_alpha_t_along_its_surfa
     assert not any(load.any() for load in body.loads())
 
 
+def test_a_wave_of_slow_heat_leaves_the_surface_free():
+    """Its stress is that of Goodier's potential and of the half-space that takes off its loads."""
+    points, lengths, depth = 16, (3e-4, 2e-4), 4e-5
+    a, b = 2.0 * np.pi / lengths[1], 4.0 * np.pi / lengths[0]
+    y, x = (np.arange(points) / points * length for length in lengths)
+    wave = np.exp(1j * (a * x + b * y[:, None]))
+    for drift in (1e2, 3e4, -3e4):
+        gamma = np.sqrt(a * a + b * b + 1j * drift * a)
+        shape = np.array([b * b - gamma**2, a * a - gamma**2, a * a + b * b, -a * b])
+        shape = np.append(shape, [-1j * b * gamma, -1j * a * gamma]) / (gamma * 1j * drift * a)
+        loads = tuple((shape[k] * wave).real for k in (2, 5, 4))
+        freed = periodic_stresses(loads, lengths, depth, STEEL.poisson_ratio)
+        exact = freed + (shape[:, None, None] * np.exp(-gamma * depth) * wave).real
+        waves = np.array([[a]]), np.array([[b]])
+        found = (free_stresses(waves, drift, depth, STEEL.poisson_ratio) * wave).real
+        np.testing.assert_allclose(found, exact, atol=1e-9 * np.abs(freed).max())
+        surface = free_stresses(waves, drift, 0.0, STEEL.poisson_ratio)
+        assert np.abs(surface[[2, 4, 5]]).max() == 0.0
+
+
+@pytest.mark.parametrize("peclet", [0.01, 0.5, -5.0])
+def test_a_slow_line_of_heat_has_the_temperature_of_jaegers_source(peclet):
+    """In plane strain sigma_y = nu (sigma_x + sigma_z) - E alpha T."""
+    x, body = line_of_heat(abs(peclet), 401, side=np.sign(peclet))
+    half = body.speed / (2.0 * STEEL.diffusivity)
+    sources, depth = np.linspace(-WIDTH, WIDTH, 20001), 0.1 * WIDTH
+    xx, yy, zz = SlowStress(body).stresses(depth)[:3, 0]
+    rise = (STEEL.poisson_ratio * (xx + zz) - yy) / (STEEL.young_modulus * STEEL.expansion)
+    for place in (-2.0 * WIDTH, 0.0, 0.8 * WIDTH):
+        along = place - sources
+        r = np.hypot(along, depth)
+        source = np.exp(half * along - abs(half) * r) * k0e(abs(half) * r)
+        exact = np.trapezoid(source, sources) * FLUX / (np.pi * STEEL.conductivity)
+        assert np.interp(place, x, rise) == pytest.approx(exact, abs=4e-4 * rise.max())
+
+
+def test_slow_stress_lies_between_those_of_resting_and_of_fast_bodies():
+    def warm(peclet):
+        x = y = np.linspace(-2.0, 2.0, 65) * WIDTH
+        x = np.append(x, x[-1] + (x[1] - x[0]) * np.arange(1, 129))  # its wake
+        flux = FLUX * np.exp(-3.0 * ((x / WIDTH) ** 2 + (y[:, None] / WIDTH) ** 2))
+        speed = 2.0 * peclet * STEEL.diffusivity / WIDTH
+        return Heated(flux, (y[1] - y[0], x[1] - x[0]), speed, STEEL, np.s_[16:49, 8:57])
+
+    depth = 0.3 * WIDTH
+    still, slow = RestingStress(warm(0.0)).stresses(depth), SlowStress(warm(1e-3)).stresses(depth)
+    np.testing.assert_allclose(slow, still, atol=2e-3 * np.abs(still).max())
+    body = warm(10.0)
+    heat, space = (
+        ThermalStress(body._replace(part=np.s_[:, :])),
+        HalfSpace(body.flux.shape, body.spacing),
+    )
+    loads = space.spectra_of(*heat.loads())
+    fast = heat.stresses(depth) + space.stresses(loads, space.influence(depth), STEEL.poisson_ratio)
+    slow = SlowStress(body).stresses(depth)
+    np.testing.assert_allclose(slow, fast[:, *body.part], atol=0.02 * np.abs(slow).max())
+    np.testing.assert_allclose(
+        SlowStress(body).stresses(depth, slice(1, None, 4)), slow[:, 1::4], rtol=1e-12
+    )
+
+
+def test_some_rows_of_a_fast_body_are_those_of_all():
+    _, body = spot(5.0, 65)
+    heat = ThermalStress(body._replace(part=np.s_[3:60, 5:65]))
+    depth = 1.3 * WIDTH
+    every, some = heat.stresses(depth), heat.stresses(depth, slice(2, None, 4))
+    largest = np.abs(heat.stresses(0.0)).max()
+    np.testing.assert_allclose(some, every[:, 2::4], atol=1e-7 * largest)
+
+
 @pytest.mark.parametrize("ratio", [2.0, 1.99])
-def test_resting_surfaces_are_stressed_and_of_slow_ones_the_remark_states_what_is_missing(ratio):
+def test_surfaces_at_rest_and_slow_ones_are_stressed(ratio):
     tables = thermal_tables()
     tables["contact"] |= {"slide_roll_ratio": ratio}
     film = tehl.solve(case_from_tables(tables)[0], tehl.Options(points=65))
     slow = int(np.argmin(film.heat.solid_peclet))
     found = film.with_stress(thermal=True, depths=10)
-    numbers = stress_numbers(found)
     rise = film.heat.temperature[-slow].max() - film.scales.temperature
-    if ratio == 2.0:
-        half = 0.5 * (1.0 - STEEL.poisson_ratio) * UNIT * rise
-        assert found.stress.thermal[slow] == pytest.approx(half, rel=0.1)
-        assert not numbers.too_slow
-        return
-    assert found.stress.thermal[slow] == 0.0
+    half = 0.5 * (1.0 - STEEL.poisson_ratio) * UNIT * rise
+    assert found.stress.thermal[slow] == pytest.approx(half, rel=0.1)
+    assert not stress_numbers(found).heat_left_out
+
+
+def test_thermal_stress_at_an_angle_is_left_out_and_the_remark_states_the_most_of_it(warm):
+    tables = thermal_tables()
+    tables["contact"] |= {"sliding_angle": "20 deg"}
+    problem = case_from_tables(tables)[0]
+    found = replace(warm, problem=problem).with_stress(thermal=True, depths=10)
+    numbers = stress_numbers(found)
+    assert numbers.heat_left_out
+    rise = warm.heat.temperature[[0, -1]].max() - warm.scales.temperature
     assert numbers.thermal_most == pytest.approx(UNIT * rise)
     assert any(f"most {1e-6 * numbers.thermal_most:.3g} MPa" in one for one in numbers.remarks)
 

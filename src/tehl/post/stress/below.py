@@ -8,16 +8,16 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.contact.stress import Stress
+from tehl.post.stress.heated import (
+    ThermalBody,
+    heated_body,
+    surface_stress,
+    thermal_stress_of,
+)
 from tehl.post.stress.influence import COMPONENTS, HalfSpace, Influence, Spectra, Steps
 from tehl.post.stress.loads import SurfaceLoads, left_out, loads_on, parts_of_cells
 from tehl.post.stress.measures import Worst, largest_shear, worst
-from tehl.post.stress.thermal import (
-    Heated,
-    RestingStress,
-    ThermalStress,
-    heated_body,
-    thermal_stress_of,
-)
+from tehl.post.stress.thermal import Heated
 from tehl.post.stress.window import Window, cut, depths_of, halved, middle_row, wake, window_of
 from tehl.result.fields import BodyStress
 from tehl.result.solution import Solution
@@ -31,7 +31,7 @@ class Case(NamedTuple):
     heat: Heated | None = None
 
 
-Body = tuple[Callable[[Steps], Spectra], Case, ThermalStress | RestingStress | None]
+Body = tuple[Callable[[Steps], Spectra], Case, ThermalBody | None]
 """Spectra of the loads by the nodes that a depth needs, the case, and its thermal stress."""
 SYMMETRY = 1e-6
 """Largest difference of loads on both sides of the middle, over the pressure, that counts as none:
@@ -118,7 +118,7 @@ def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress
         life_coarse=march.life(coarse[:n], coarse[n:][which]),
         traction=np.array([one.loads.traction_x.sum() / one.loads.pressure.sum() for one in cases]),
         left_out=np.array(float(without_shear)),
-        thermal=np.array([0.0 if one is None else one.surface_stress for one in heats]),
+        thermal=np.array([0.0 if one is None else surface_stress(one) for one in heats]),
     )
 
 
@@ -208,7 +208,7 @@ class March:
         self,
         case: Case,
         loads: SurfaceLoads,
-        heat: ThermalStress | RestingStress | None,
+        heat: ThermalBody | None,
         space: HalfSpace,
     ) -> Body:
         """Return the spectra of the loads of a body, itself, and its thermal stress."""
@@ -228,7 +228,7 @@ class March:
         steps = space.steps_of(influence)
         stress = space.stresses(spectra(steps), influence, case.poisson_ratio)[..., grid.kept]
         if heat is not None:
-            added = heat.stresses(float(self.depths[level]))[:, space.rows(steps)]
+            added = heat.stresses(float(self.depths[level]), space.rows(steps))
             stress += added[..., grid.kept] / self.scale
         stress[:2] += self._residual[level] / self.scale
         return stress
@@ -281,7 +281,7 @@ def _coarser(case: Case) -> Case:
     return Case(loads, case.poisson_ratio, None if heat is None else heat.coarser(halved))
 
 
-def _with_heat(loads: SurfaceLoads, heat: ThermalStress | RestingStress | None) -> SurfaceLoads:
+def _with_heat(loads: SurfaceLoads, heat: ThermalBody | None) -> SurfaceLoads:
     """Return loads with those that free the surface of thermal stress."""
     if heat is None:
         return loads

@@ -35,9 +35,11 @@ Spectra = list[NDArray[Any] | None]
 Influence = tuple[Array, Array, Array, Array]
 Steps = tuple[int, int]
 """Nodes along y and x to the next one that a depth needs."""
-MOST_STEPS, DEPTH_OF_STEPS = 4, 5.0
-"""Most nodes to the next, a power of two, and depth over that distance from which a wave of two
-such distances has decayed by e^(-5 pi) = 1.5e-7."""
+WIDEST_STEP = 4
+"""Most nodes to the next, a power of two."""
+DEPTH_OF_STEPS = 5.0
+"""Depth over that distance from which a wave of two such distances has decayed by e^(-5 pi), that
+is 1.5e-7."""
 SPARE = 2
 """Such distances between the end of the grid and where its period begins: odd kernels jump there,
 and a jump of few waves oscillates."""
@@ -68,10 +70,7 @@ class HalfSpace:
         self.shape, self.spacing = shape, spacing
         self.row, self.mirror = row, mirror
         self._kind: Any = np.float32 if single else np.float64
-        self._half = tuple(
-            MOST_STEPS * next_fast_len(math.ceil(n / MOST_STEPS) + SPARE, real=True) if n > 1 else 2
-            for n in shape
-        )
+        self._half = tuple(2 if n == 1 else fast_size(n + SPARE * WIDEST_STEP) for n in shape)
 
     def steps(self, depth: float) -> Steps:
         """Return the nodes along y and x to the next one that a depth needs."""
@@ -174,7 +173,7 @@ class HalfSpace:
             (np.arange(half // step + 2) - 0.5) * step * d
             for half, step, d in zip(self._half, steps, self.spacing, strict=True)
         )
-        corners = _corners(x[None, :], y[:, None], depth)
+        corners = _corners(np.asarray(x)[None, :], np.asarray(y)[:, None], depth)
         even, odd_x, odd_y, odd_xy = (
             np.diff(np.diff(one, axis=-1) / (2.0 * math.pi), axis=-2).astype(self._kind)
             for one in corners
@@ -213,10 +212,15 @@ class HalfSpace:
         return np.asarray(irfft(rows, 2 * self._half[1], axis=2)[..., : self.shape[1]])
 
 
+def fast_size(number: float) -> int:
+    """Return the least size of a fast transform that holds all steps and ``number`` nodes."""
+    return int(WIDEST_STEP * next_fast_len(math.ceil(number / WIDEST_STEP), real=True))
+
+
 def _step(depth: float) -> int:
     """Return the nodes to the next that a depth in mesh widths needs."""
     step = 1
-    while step < MOST_STEPS and depth >= 2 * step * DEPTH_OF_STEPS:
+    while step < WIDEST_STEP and depth >= 2 * step * DEPTH_OF_STEPS:
         step *= 2
     return step
 

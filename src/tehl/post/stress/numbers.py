@@ -7,7 +7,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from tehl.base.typing import Array
-from tehl.contact.stress import LEAST_THERMAL_PECLET, Stress
+from tehl.contact.stress import Stress
 from tehl.result.fields import BodyStress
 from tehl.result.solution import Solution
 
@@ -100,10 +100,11 @@ class StressNumbers:
     """The shallowest depth [m]."""
     traction_left_out: bool
     """Whether the shear stress of the film is left out, as no oil can carry it."""
-    too_slow: bool
-    """Whether the heat of a body is left out, as the body is too slow."""
+    heat_left_out: bool
+    """Whether thermal stress is left out, as surfaces that move at an angle or spin have curved
+    wakes of heat."""
     thermal_most: float
-    """E alpha dT/(1 - nu) of the largest rise along the surfaces that are too slow [Pa]."""
+    """E alpha dT/(1 - nu) of the largest rise along the surfaces then [Pa]."""
     counts_roughness: bool
     """Whether the pressure is that of rough surfaces: a factor of lambda or kappa on the relative
     life would count the roughness twice."""
@@ -127,10 +128,9 @@ class StressNumbers:
                 "the shear stress of the film is more than any oil can carry, and is left out",
             ),
             (
-                self.too_slow,
-                "the thermal stress of a body whose solid Peclet number is below "
-                f"{LEAST_THERMAL_PECLET:g} is left out, as its heat runs ahead beyond the nodes: "
-                f"at most {1e-6 * self.thermal_most:.3g} MPa, E alpha dT/(1 - nu)",
+                self.heat_left_out,
+                "thermal stress at an angle or with spin is left out: at most "
+                f"{1e-6 * self.thermal_most:.3g} MPa, E alpha dT/(1 - nu)",
             ),
         )
         return tuple(words for applies, words in known if applies)
@@ -152,15 +152,15 @@ def stress_numbers(result: Solution) -> StressNumbers | None:
         bodies=tuple(_numbers(found, row, bar, power, settings) for row in range(found.body.size)),
         shallowest=float(found.depth[0]),
         traction_left_out=bool(found.left_out),
-        too_slow=settings.thermal and not found.thermal.all(),
-        thermal_most=_slow_heat(result, found.body[found.thermal == 0.0].astype(int).tolist()),
+        heat_left_out=settings.thermal and not found.thermal.all(),
+        thermal_most=_missing_heat(result, found.body[found.thermal == 0.0].astype(int).tolist()),
         counts_roughness=any(
             part is not None for part in (result.heights, result.contact, result.asperities)
         ),
     )
 
 
-def _slow_heat(result: Solution, bodies: list[int]) -> float:
+def _missing_heat(result: Solution, bodies: list[int]) -> float:
     """Return the largest E alpha dT/(1 - nu) of some bodies [Pa]; at rest half of it."""
     most, problem, heat = 0.0, result.problem, result.problem.heat
     for body in bodies:
