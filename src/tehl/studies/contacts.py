@@ -97,7 +97,7 @@ def read_contacts(path: Path, template: Path | None = None) -> Contacts:
         message.
     """
     base, folder = template_tables(template)
-    lines = lines_of(path)
+    lines = lines_of(path, "list of contacts")
     try:
         return _contacts(lines, base, folder)
     except InputError as error:
@@ -114,28 +114,35 @@ def template_tables(template: Path | None) -> tuple[dict[str, Any], Path | None]
         raise InputError(f"template {shortened(template)}: {error}") from None
 
 
-def lines_of(path: Path) -> list[tuple[int, list[Any]]]:
-    """Return the numbers and the cells of the rows of a file, headings first; None is empty."""
+def lines_of(path: Path, what: str) -> list[tuple[int, list[Any]]]:
+    """Return the numbers and the cells of the rows of a file, headings first; None is empty.
+
+    Parameters
+    ----------
+    path : Path
+        CSV as spreadsheets save it, Excel or Parquet.
+    what : str
+        What a message calls it.
+    """
     ending = path.suffix.lower()
     if ending == ".xlsx":
-        return lines_of_sheet(path, "list of contacts")
+        return lines_of_sheet(path, what)
     if ending == ".parquet":
-        frame = _frame_of_parquet(path)
+        frame = _frame_of_parquet(path, what)
         return lines_of_frame(frame)
     return [
-        (number, [cell or None for cell in line])
-        for number, line in numbered_lines(path, "list of contacts")
+        (number, [cell or None for cell in line]) for number, line in numbered_lines(path, what)
     ]
 
 
-def _frame_of_parquet(path: Path) -> "pd.DataFrame":
+def _frame_of_parquet(path: Path, what: str) -> "pd.DataFrame":
     check_package("pyarrow", "parquet", path)
     import pandas as pd  # noqa: PLC0415 (0.5 s)
 
     try:
         return pd.read_parquet(path)
     except FileNotFoundError:
-        raise InputError(f"list of contacts {shortened(path)} does not exist") from None
+        raise InputError(f"{what} {shortened(path)} does not exist") from None
     except (OSError, ValueError) as error:
         raise InputError(f"{shortened(path)} cannot be read as Parquet: {error}") from None
 

@@ -143,7 +143,7 @@ def points_of(
     """
     if isinstance(data, str | Path):
         name = shortened(Path(data).name)
-        lines = rig_lines(Path(data), probe) or lines_of(Path(data))
+        lines = rig_lines(Path(data), probe) or lines_of(Path(data), "file of measurements")
     else:
         name, lines = "table", lines_of_frame(data)
     points, place = list[Point](), name
