@@ -251,7 +251,7 @@ def steady(problem: ContactProblem) -> ContactProblem:
 def _stages(options: Options, found: Explanation, *, quick: bool) -> Iterator[tuple[Options, bool]]:
     """Yield the options of the grids to show, and whether they are those of the case."""
     stated = options.points != "auto"
-    finest = min(options.shape) if stated else found.expected_points
+    finest = min(options.shape if stated else found.expected_shape)
     for nodes in (QUICK_NODES,) if quick else (MIDDLE_NODES,):
         if nodes < finest:
             yield options.model_copy(update={"points": nodes, "error": None}), False
@@ -265,8 +265,7 @@ def too_coarse(stage: Options, options: Options, found: Explanation, *, quick: b
     words = f"{nx} × {ny} is too coarse"
     if quick:
         return TooCoarse(f"{words}: solved when the slider is released")
-    finest = found.expected_points
-    columns, rows = (finest, finest) if options.points == "auto" else options.shape[::-1]
+    rows, columns = found.expected_shape if options.points == "auto" else options.shape
     return TooCoarse(f"{words}, solving {columns} × {rows}, about {_seconds(found.seconds)}")
 
 

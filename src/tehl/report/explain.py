@@ -26,6 +26,7 @@ from tehl.estimate.inlet_heating import inlet_factors, inlet_heating_factor, the
 from tehl.estimate.memory import available_memory, needed_memory
 from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.settled import settled
 from tehl.estimate.starvation import check_supply, starved_degree, supply_ratio
 from tehl.estimate.summits import SharedLoad, shared_load
 from tehl.lubricant.pressure import UNCERTAINTY
@@ -91,9 +92,9 @@ class Explanation:
     domain: Domain
     recommended_domain: Domain
     """The domain of the solve, stated or recommended, and the one recommended for the load."""
-    expected_points: int
+    expected_shape: tuple[int, int]
     expected_error: float
-    """Nodes per direction on which the error to reach is expected."""
+    """Nodes (ny, nx) on which the error to reach is expected."""
     memory: float
     seconds: float
     """Estimated peak memory [byte] and time [s] of a solve."""
@@ -193,7 +194,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     warm = expected_bodies(problem)
     scaled = ScaledProblem.of(warm or problem)
     follows = planned(scaled, asked.model_copy(update={"points": "auto"}))
-    options = follows if asked.points == "auto" else asked
+    options = follows if asked.points == "auto" else settled(problem, asked)
     check_supply(scaled, domain_of(scaled, options))
     likely, (ny, nx) = likely_film(scaled), options.shape
     film = likely.central_m
@@ -221,7 +222,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         heat=heat,
         domain=domain,
         recommended_domain=wanted,
-        expected_points=follows.shape[0],
+        expected_shape=follows.shape,
         expected_error=follows.target,
         memory=needed_memory(options, problem),
         seconds=expected_seconds(scaled, asked) * (FILMS if problem.computes_bodies else 1),
@@ -302,7 +303,7 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         "domain": case.domain.model_dump(mode="json"),
         "recommended_domain": case.recommended_domain.model_dump(mode="json"),
         "points": list(reversed(case.options.shape)),
-        "expected_points": case.expected_points,
+        "expected_points": case.expected_shape[1],
         "memory_bytes": case.memory,
         "seconds": case.seconds,
         "seconds_range": list(case.seconds_range),
