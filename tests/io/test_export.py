@@ -267,6 +267,11 @@ def test_vtk_of_a_transient_result_is_a_collection_of_planes(tmp_path):
             assert np.array_equal(found, getattr(run.frames, name)[number].ravel())
 
 
+def test_what_a_result_does_not_have_is_not_expected(result, tmp_path):
+    with pytest.raises(InputError, match="no depths to export; expected lines or fields or hist"):
+        export(result, tmp_path / "depths.csv", what="depths")
+
+
 @pytest.mark.parametrize(("name", "what"), [("run.csv", "fields"), ("run.pvd", "")])
 def test_a_transient_result_without_frames_has_none_to_export(tmp_path, name, what):
     with pytest.raises(InputError, match=r"has no (fields|frames) to export"):

@@ -167,7 +167,8 @@ def _write_csv(result: Solution | TransientSolution, path: Path, what: str) -> N
     what = what or next(iter(known))
     columns = {v.name + _SUFFIXES[v.units]: v.data for v in _over(known.get(what, ()), result)}
     if not columns:
-        raise InputError(f"the result has no {what} to export; expected {' or '.join(known)}")
+        there = [one for one, dims in known.items() if any(_over(dims, result))]
+        raise InputError(f"the result has no {what} to export; expected {' or '.join(there)}")
     names: Iterable[str] = columns
     if isinstance(result, Solution) and what == "lines":
         names, rows = ("line", *columns), _line_rows(result, list(columns.values()))

@@ -52,8 +52,8 @@ def animate(
     """Write a transient run as an animation; whole, or not at all.
 
     It shows the stored fields (``transient.frames``): film thickness, and below it film, pressure
-    and the rough body along y = 0. With fewer than two stored fields it shows that line at all
-    steps.
+    and the rough body along y = 0. Of a line contact, and with fewer than two stored fields, it
+    shows that line at all steps.
 
     Parameters
     ----------
@@ -184,7 +184,8 @@ class Movie:
         self, run: TransientSolution, *, dpi: int = 100, stress: int | None = None
     ) -> None:
         self.run, count = run, len(run.history.time)
-        has_fields = run.frames.step.size >= 2
+        is_map = stress is not None or not run.start.problem.contact.is_line
+        has_fields = is_map and run.frames.step.size >= 2
         shown = np.unique(
             np.linspace(0, count - 1, min(count, MOST_MOMENTS)).round().astype(np.int64)
         )
