@@ -10,10 +10,12 @@ from tehl.base.errors import InputError
 from tehl.contact.options import Domain, Options
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import starved_degree, starved_part, table
+from tehl.io.case import tables_of_text
 from tehl.io.store import save
+from tehl.io.templates import template_text
 from tehl.kernels import cavities, properties, relaxation, reynolds
 from tehl.plots.oil import oil_map
-from tehl.post.layer import LayerDecay, layer_decay
+from tehl.post.layer import LayerDecay, check_layer, layer_decay
 from tehl.post.starvation import meniscus, oil_flux
 from tehl.solver import steady
 from tehl.solver.transient.step import Stepper
@@ -336,6 +338,12 @@ def test_the_law_of_side_flow_is_that_of_the_passes(passed):
 def test_the_law_of_side_flow_does_not_see_the_mesh(points):
     decay = layer_decay(solve(starved(50.0, 8.0, ratio=0.2, track=0.25), Options(points=points)))
     assert decay.rate == pytest.approx(decay.rate_by_formula, rel=0.05)
+
+
+def test_the_law_of_side_flow_is_not_for_rollers():
+    tables = tables_of_text(template_text("roller")) | {"supply": {"ratio": 0.3, "track": 0.25}}
+    with pytest.raises(InputError, match="rounded rim of a ball"):
+        check_layer(case_from_tables(tables)[0])
 
 
 def test_a_layer_that_is_fed_ends_at_its_limit():

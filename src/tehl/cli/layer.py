@@ -76,11 +76,11 @@ def layer(  # noqa: PLR0913 (the options of the command)
 
 def _single(problem: "ContactProblem", case: Path) -> "ContactProblem":
     """Return the first pass of a case; raise if the law of side flow does not apply to it."""
-    if problem.supply is None or problem.supply.track is None:
-        raise InputError(
-            f"{case}: supply.track is missing, which tehl layer needs: give the length of both "
-            'running tracks together, such as "250 mm"'
-        )
+    try:
+        layers.check_layer(problem)
+    except InputError as error:
+        raise InputError(f"{case}: {error}") from None
+    assert problem.supply is not None
     if problem.is_rough or problem.transient is not None:
         raise InputError(
             f"{case}: the law of side flow is for steady contacts of smooth surfaces: remove "

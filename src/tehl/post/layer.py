@@ -26,6 +26,7 @@ import numpy as np
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.hertz import HertzContact
+from tehl.contact.problem import ContactProblem
 from tehl.result.solution import Solution
 
 PRESSURES = 4001
@@ -136,21 +137,34 @@ def rate_by_formula(hertz: HertzContact, viscosity: float, alpha: float, track: 
     return 2.0 / track * thin * thick ** (-2.0 / 3.0)
 
 
-def layer_decay(result: Solution) -> LayerDecay:
-    """Return how the film of a result decays by side flow.
-
-    Raises InputError if the case states no ``supply.track``.
-    """
-    problem, supply = result.problem, result.problem.supply
+def check_layer(problem: ContactProblem) -> None:
+    """Raise InputError if the law of side flow does not hold for a contact, or lacks the track."""
+    supply = problem.supply
     if supply is None or supply.track is None:
         raise InputError(
             'supply.track is missing: give the length of both running tracks, such as "250 mm"'
         )
-    if result.groups.twist:
+    if problem.contact.has_lines:
+        raise InputError(
+            "contact.type: the law of side flow is for the rounded rim of a ball or an ellipse; a "
+            "roller loses oil at its ends alone; take supply.passes"
+        )
+    if problem.radii.twist:
         raise InputError(
             "contact.entrainment_angle: oil flows across the middle of a track that is not "
             "symmetric, so one line does not tell how the layer thins; take supply.passes"
         )
+
+
+def layer_decay(result: Solution) -> LayerDecay:
+    """Return how the film of a result decays by side flow.
+
+    Raises InputError where `check_layer` does.
+    """
+    problem, supply = result.problem, result.problem.supply
+    check_layer(problem)
+    assert supply is not None
+    assert supply.track is not None
     scales, pressure = result.scales, result.scaled.at_origin(result.pressure)
     density = float(problem.lubricant.density.density(pressure, scales.temperature))
     return LayerDecay(
