@@ -51,6 +51,12 @@ def test_the_middle_of_a_roller_is_a_line_contact():
     assert abs(found.scaled.y[found.scaled.film.min(axis=1).argmin()]) > 0.9
 
 
+def test_only_the_inlet_edge_can_starve_a_roller():
+    """Its ends are edges of the nodes, through which no oil flows."""
+    found = tehl.solve(roller(20.0, profile=LOGARITHMIC), Options(points=(97, 33), edges="zero"))
+    assert found.status.converged
+
+
 @pytest.mark.parametrize(
     "physics",
     [

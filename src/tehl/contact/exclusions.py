@@ -146,11 +146,6 @@ def check_roller(problem: PointContact) -> None:
     shape = problem.shape
     if not isinstance(shape, Roller):
         return
-    if problem.dynamics is not None:
-        raise ValueError(
-            'contact.type = "roller" and dynamics exclude each other: the response of the oil '
-            "upstream of a roller is not known"
-        )
     width = 2.0 * problem.hertz.half_width_x
     if not shape.length >= LEAST_LENGTH * width:
         raise ValueError(

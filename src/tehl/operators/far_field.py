@@ -276,8 +276,10 @@ class FarField:
         return EdgeSlopes(
             by_film=by_film,
             by_rate=by_rate,
-            load_by_film=(higher - lower) / (2.0 * step),
+            load_by_film=np.full(len(film), (higher - lower) / (2.0 * step * len(film))),
             load_by_rate=-float((self.squeeze_weight / outside).sum()),
+            by_flux=np.zeros(len(film)),
+            load_by_flux=np.zeros(len(film)),
         )
 
 

@@ -69,7 +69,13 @@ class Cavity(NamedTuple):
 
 
 def neighbour(
-    grid: Grid, inner: BoolArray, rows: int, columns: int, weight: float = 1.0
+    grid: Grid,
+    inner: BoolArray,
+    rows: int,
+    columns: int,
+    weight: float = 1.0,
+    *,
+    closed: bool = False,
 ) -> csr_matrix:
     """Return the matrix that selects a neighbour of each inner node, times ``weight``.
 
@@ -83,10 +89,15 @@ def neighbour(
         Offset of the neighbour.
     weight : float
         Factor on all entries.
+    closed : bool
+        Whether rows beyond the first and last one are those before it: no oil flows through the
+        ends of a roller.
     """
     ny, nx = grid.shape
     j, i = np.nonzero(inner)
-    there = np.abs(j + rows) if grid.mirror else j + rows if ny > 1 else j
+    there = np.abs(j + rows) if grid.mirror or closed else j + rows if ny > 1 else j
+    if closed:
+        there = ny - 1 - np.abs(ny - 1 - there)
     column = i + columns
     inside = (there >= 0) & (there < ny) & (column >= 0) & (column < nx)
     places = (j[inside] * nx + i[inside], there[inside] * nx + column[inside])
@@ -123,8 +134,8 @@ def neighbours_of(
         here=neighbour(grid, inner, 0, 0),
         east=neighbour(grid, inner, 0, 1),
         west=neighbour(grid, inner, 0, -1),
-        north=neighbour(grid, inner, 1, 0),
-        south=neighbour(grid, inner, -1, 0),
+        north=neighbour(grid, inner, 1, 0, closed=grid.is_closed),
+        south=neighbour(grid, inner, -1, 0, closed=grid.is_closed),
         upstream=upstream,
     )
 

@@ -38,15 +38,16 @@ class Beyond(NamedTuple):
 class EdgeSlopes(NamedTuple):
     """Change of the pressure on the edges, (ny, nx), and of the load outside.
 
-    By that of the film and by its rate; of a line contact also by the flux of the oil.
+    By that of the film and by its rate; of lines also by the flux of the oil, (ny,) each.
     """
 
     by_film: Array
     by_rate: Array
-    load_by_film: float
+    load_by_film: Array
+    """(ny,): By that of the film at the inlet edge of each line."""
     load_by_rate: float
-    by_flux: float = 0.0
-    load_by_flux: float = 0.0
+    by_flux: Array
+    load_by_flux: Array
 
 
 def nothing(grid: Grid) -> Beyond:
@@ -195,21 +196,28 @@ class UpstreamField:
             H; the gap follows from its value on the edge.
         """
         del gap
-        inlet = float(film[0, 0])
-        flux, step = min(float(film[0, self.middle]), inlet), 1e-4 * inlet
-        films = np.array([inlet + step, inlet - step])
-        changed = beyond(self.edge, films, np.array([flux, flux]), self.groups)
+        inlet = film[:, 0]
+        flux, step = np.minimum(film[:, self.middle], inlet), 1e-4 * inlet
+        higher, lower = (
+            beyond(self.edge, inlet + change, flux, self.groups) for change in (step, -step)
+        )
         t, weight = _gauss()
-        x, h = self.edge / t, gap_beyond(self.edge, np.array(inlet), t)
-        per_flux = -self.groups.lambda_bar * weight / h**3 * -self.edge / t**2
+        x, h = self.edge / t, gap_beyond(self.edge, inlet[:, None], t)
+        per_flux = self.groups.lambda_bar * self.edge / t**2 * weight / h**3
         by_flux, load_by_flux, load_by_rate = (
-            float((per_flux * (self.edge - x) ** power).sum()) for power in range(3)
+            (per_flux * (self.edge - x) ** power).sum(axis=1) for power in range(3)
         )
         by_film, by_rate = np.zeros_like(film), np.zeros_like(film)
-        by_film[0, 0] = (changed.pressure[0] - changed.pressure[1]) / (2.0 * step)
-        by_rate[0, 0] = load_by_flux
-        load_by_film = float(changed.load[0] - changed.load[1]) / (2.0 * step)
-        return EdgeSlopes(by_film, by_rate, load_by_film, load_by_rate, by_flux, load_by_flux)
+        by_film[:, 0] = (higher.pressure - lower.pressure) / (2.0 * step)
+        by_rate[:, 0] = load_by_flux
+        return EdgeSlopes(
+            by_film=by_film,
+            by_rate=by_rate,
+            load_by_film=self.widths * (higher.load - lower.load) / (2.0 * step),
+            load_by_rate=float(self.widths @ load_by_rate),
+            by_flux=by_flux,
+            load_by_flux=self.widths * load_by_flux,
+        )
 
     def _beyond(self, film: Array) -> Beyond:
         inlet = np.maximum(film[:, 0], 0.5 * self.edge**2 * 1e-3)

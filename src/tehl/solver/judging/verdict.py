@@ -284,7 +284,7 @@ def _edge_status(run: FilmSolver) -> Status:
         ("sides_too_close", "side edge at Y", domain.y[0]),
         ("sides_too_close", "side edge at Y", domain.y[1]),
     )
-    for cause, name, place in edges[: 1 if run.finest.grid.ny == 1 else 3]:
+    for cause, name, place in edges[: 3 if run.finest.grid.edge_rows else 1]:
         distance = abs(place)
         if distance < needed and ((distance - 1.0) / (needed - 1.0)) ** 0.29 < STARVED:
             return _failed(

@@ -234,10 +234,10 @@ def _forces(system: FilmResponse, change: Array, moved: float) -> Array:
     rolling = 0.5 * (weights @ (by_film * film) - weights @ (by_pressure * pressure))
     load = weights @ pressure
     if system.outside is not None:
-        load += system.outside.load_by_film * film.reshape(level.grid.shape)[:, 0].mean()
+        load += system.outside.load_by_film @ film.reshape(level.grid.shape)[:, 0]
     if system.face is not None and system.outside is not None:
-        by_pressure, by_film, _ = system.face
-        load += system.outside.load_by_flux * (by_pressure @ pressure + by_film @ film)
+        flux = system.face.by_pressure @ pressure + system.face.by_film @ film
+        load += system.outside.load_by_flux @ flux
     return np.array([load, rolling])
 
 

@@ -78,15 +78,15 @@ class FilmResponse:
         ones = np.ones(inner.size)
         found = self._coefficients(neighbours, ones if stored is None else stored.ravel())
         self.outside = None
-        self.face: tuple[Array, Array, float] | None = None
+        self.face: Face | None = None
         if far is not None:
             assert not isinstance(far, Turned)  # the film is steady
             self.outside = far.slopes(film.h, level.equations.gap)
             edge = (film.p > 0.0).ravel() & ~inner & (self.outside.by_film != 0.0).ravel()
             self.unknown = self.carries = self.unknown | edge
             found = _with_edges(found, edge.astype(float), film.p.ravel(), self.outside)
-            if self.outside.by_flux:
-                self.face = _face(level)
+            if self.outside.by_flux.any():
+                self.face = first_faces(level)
                 found = _with_flux(found, self.outside.by_flux, self.face, level.grid.dx)
         near = level.equations.influence.self_film
         size = np.asarray(abs(found.by_pressure).sum(1) + near * abs(found.by_film).sum(1)).ravel()
@@ -157,33 +157,45 @@ def _with_edges(
     )
 
 
-def _face(level: Level) -> tuple[Array, Array, float]:
-    """Return the flux of the oil through the first face of a line, to first order.
+class Face(NamedTuple):
+    """Flux of the oil through the first face of each line, to first order.
 
-    Its changes by pressure and film at all nodes, (n,) each, and rho H there less the flux.
+    Its changes by pressure and film at all nodes, (lines, n), and rho H there less the flux.
     """
-    film, dx = level.film, level.grid.dx
-    by_pressure, by_film = np.zeros(film.p.size), np.zeros(film.p.size)
-    eps, slope = 0.5 * (film.eps[0, 0] + film.eps[0, 1]), (film.p[0, 1] - film.p[0, 0]) / dx
-    by_pressure[:2] = eps / dx, -eps / dx
+
+    by_pressure: csr_matrix
+    by_film: csr_matrix
+    spare: Array
+
+
+def first_faces(level: Level) -> Face:
+    """Return the fluxes through the first faces of the lines of a level."""
+    film, dx, lines = level.film, level.grid.dx, np.arange(level.grid.shape[0])
+    eps, slope = 0.5 * (film.eps[:, 0] + film.eps[:, 1]), (film.p[:, 1] - film.p[:, 0]) / dx
     # eps is as H^3
-    by_film[:2] = 0.5 * film.rho[0, :2] - 1.5 * film.eps[0, :2] / film.h[0, :2] * slope
-    return by_pressure, by_film, float(eps * slope)
+    by_film = 0.5 * film.rho[:, :2] - 1.5 * film.eps[:, :2] / film.h[:, :2] * slope[:, None]
+    pressed = np.stack([eps / dx, -eps / dx], axis=1)
+    nodes = lines[:, None] * level.grid.nx + np.arange(2)
+    shape = (lines.size, film.p.size)
+    first, second = (
+        csr_matrix((one.ravel(), (np.repeat(lines, 2), nodes.ravel())), shape=shape)
+        for one in (pressed, by_film)
+    )
+    return Face(first, second, eps * slope)
 
 
-def _with_flux(
-    inner: Coefficients, by_flux: float, face: tuple[Array, Array, float], dx: float
-) -> Coefficients:
-    """Return the coefficients with the change of the pressure at the inlet edge by the flux."""
-    by_pressure, by_film, spare = face
-    first = np.zeros((by_film.size, 1))
-    first[0, 0] = -by_flux
+def _with_flux(inner: Coefficients, by_flux: Array, face: Face, dx: float) -> Coefficients:
+    """Return the coefficients with the change of the pressures at the inlet edge by the fluxes."""
+    lines = np.arange(by_flux.size)
+    first = lines * (inner.density.size // lines.size)
+    shape = (inner.density.size, lines.size)
+    edge = csr_matrix((-by_flux, (first, lines)), shape=shape)
     density, wedge = inner.density.copy(), inner.wedge.copy()
-    density[0] += 0.5 * dx * by_flux  # the flux at the edge, half a mesh width upstream
-    wedge[0] += by_flux * spare
+    density[first] += 0.5 * dx * by_flux  # the flux at the edge, half a mesh width upstream
+    wedge[first] += by_flux * face.spare
     return Coefficients(
-        csr_matrix(inner.by_pressure + csr_matrix(first) @ csr_matrix(by_pressure)),
-        csr_matrix(inner.by_film + csr_matrix(first) @ csr_matrix(by_film)),
+        csr_matrix(inner.by_pressure + edge @ face.by_pressure),
+        csr_matrix(inner.by_film + edge @ face.by_film),
         density,
         inner.denser,
         wedge,
@@ -325,8 +337,7 @@ def moving_front(level: Level) -> tuple[csr_matrix, Array]:
     begins = wet[:, 1:] & ~wet[:, :-1] & (film.partial[:, :-1] > 0)
     has: BoolArray = np.asarray(begins.any(axis=1))
     first = np.minimum(np.argmax(begins, axis=1) + 1, grid.nx - 2)
-    if lines.size > 1:  # a line contact has no edges along y
-        has[[-1] if grid.mirror else [0, -1]] = False
+    has[list(grid.edge_rows)] = False
     here, node = film.p[lines, first], lines * grid.nx + first
     rise = np.where(has, film.p[lines, first + 1] - here, 1.0)
     place = grid.x[first] - grid.dx * np.clip(here / np.where(rise > 0.0, rise, np.inf), 0.0, 1.0)
@@ -337,15 +348,19 @@ def moving_front(level: Level) -> tuple[csr_matrix, Array]:
     # line by line: half the flux of both lines through each face between them
     low, high = node[:-1][both], node[1:][both]
     flow = 0.5 * slope[both] / (grid.dx * width)
-    twice = np.where(grid.mirror & (lines[:-1][both] == 0), 2.0, 1.0)
+    first_image, last_image = grid.mirror or grid.is_closed, grid.is_closed
+    times = np.ones(lines.size)  # images beyond a line bring as much again
+    times[0], times[-1] = 1.0 + first_image, 1.0 + last_image
     entries = [
         (row, column, sign * flow * eps[at][both])
-        for row, sign in ((low, -twice), (high, np.ones_like(flow)))
+        for row, sign in ((low, -times[:-1][both]), (high, times[1:][both]))
         for column, at in ((low, slice(None, -1)), (high, slice(1, None)))
     ]
     row, column, value = (np.concatenate(part) for part in zip(*entries, strict=True))
     along = csr_matrix((value, (row, column)), shape=(wet.size, wet.size))
-    before = np.append(-slope[:1] if grid.mirror and slope.size else 0.0, slope)
-    mean, swept = 0.5 * (before + np.append(slope, 0.0)), np.zeros(wet.size)
+    none = np.zeros(1)
+    before = np.append(-slope[:1] if first_image and slope.size else none, slope)
+    after = np.append(slope, -slope[-1:] if last_image and slope.size else none)
+    mean, swept = 0.5 * (before + after), np.zeros(wet.size)
     swept[node[has]] = (eps * (1.0 + mean**2) / grid.dx)[has]
     return along, swept
