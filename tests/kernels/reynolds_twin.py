@@ -18,17 +18,17 @@ def random_film(shape, seed=0):
 
 def stencil_of(mirror, dx=0.25, dy=0.4, third=False, fore=0):
     weights = 1.5 / dx, -2.0 / dx, 0.5 / dx
+    sizes, part = (1.0 / dx**2, 1.0 / dy**2), 0.2 if third else 1.0
     third = 1.0 / (3.0 * dx) if third else 0.0
-    sizes = 1.0 / dx**2, 1.0 / dy**2
-    return Stencil(*sizes, *weights, mirror, third=third, fore=fore, logarithmic=0.2)
+    return Stencil(*sizes, *weights, mirror, third=third, fore=fore, arithmetic=part)
 
 
 def means(stencil, first, second, along):
     """Twice the conductance of the faces between two arrays of nodes."""
-    if stencil.third == 0.0:
+    if along and stencil.third == 0.0:
         return first + second
     geometric = 2.0 * np.sqrt(first * second)
-    part = np.where(second > first, 1.0 / 3.0, 0.0) if along else stencil.logarithmic
+    part = np.where(second > first, 1.0 / 3.0, 0.0) if along else stencil.arithmetic
     return geometric + part * (first + second - geometric)
 
 

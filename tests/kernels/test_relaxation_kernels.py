@@ -6,7 +6,7 @@ import pytest
 from tehl.kernels import properties, relaxation, reynolds
 from tehl.kernels.lanes import LANES
 from tehl.kernels.relaxation import LineRelaxation
-from tehl.kernels.reynolds import Stencil
+from tehl.kernels.reynolds import CLOSED, Stencil
 from tests.kernels.from_python import from_python
 from tests.kernels.reynolds_twin import isotropic, operator_twin, random_film, stencil_of
 
@@ -110,6 +110,23 @@ def test_nodes_of_small_conductance_far_from_cavities_relax_as_dipoles():
     expected[1:-1, 1:5] = 1
     expected[1, 1] = expected[1, 2] = expected[2, 1] = 0
     np.testing.assert_array_equal(setting.kind, expected)
+
+
+def test_lines_that_are_far_apart_leave_each_other_their_kind_and_their_cavities():
+    shape = (7, 9)
+    film, stencil = random_film(shape), stencil_of(mirror=CLOSED, dy=2.0)
+    film.eps[:] = 1e-6
+    film.eps[3] = 1e4  # conducts well, but little flows to the lines beside
+    film.p[3, 3:] = 0.0
+    setting = relaxation_of(shape, xi=1.0)._replace(apart=1, aside=0.01)
+    mark_dipoles(film, stencil, setting)
+    expected = np.zeros(shape, np.uint8)
+    expected[:, 1:-1] = 1
+    expected[3] = 0
+    np.testing.assert_array_equal(setting.kind, expected)
+    setting.delta[2, 5] = -1.0
+    add_dipoles(film, setting, stencil.mirror)
+    assert film.p[3, 5] == 0.0  # a cavity is not filled from the line beside
 
 
 @MIRROR

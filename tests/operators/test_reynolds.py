@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from tehl.base.typing import Array
-from tehl.contact.options import Domain
+from tehl.contact.options import ROLLER_ENDS, Domain
 from tehl.estimate.grid import Grid
 from tehl.kernels import properties, reynolds
 from tehl.operators.influence import influence_of
-from tehl.operators.reynolds import line_influence, steady_stencil
+from tehl.operators.reynolds import line_influence, of_second_order, steady_stencil
 from tests.kernels.from_python import from_python
 from tests.operators.contacts import contact_groups, grid_of
 
-both_x = from_python(reynolds.both_x)
+both, both_x = from_python(reynolds.both), from_python(reynolds.both_x)
 BOX = Domain(x=(-2.0, 2.0), y=(-1.5, 1.5))
 
 
@@ -85,6 +85,17 @@ def test_the_conductance_of_a_face_is_a_geometric_or_a_logarithmic_mean(factor):
     assert falling == pytest.approx(factor**0.5)
     exact = (factor - 1.0) / np.log(factor) if factor > 1.0 else 1.0
     assert rising == pytest.approx(exact, rel=0.02)
+
+
+@pytest.mark.parametrize("wedge", [1, 2, 3])
+def test_lines_of_a_roller_conduct_to_each_other_by_geometric_means_on_all_grids(wedge):
+    ends = Domain.model_construct(x=(-3.4, 1.5), y=ROLLER_ENDS)
+    closed, open_ = (
+        steady_stencil(grid_of(33, 33, mirror=True, domain=one), contact_groups(), wedge)
+        for one in (ends, BOX)
+    )
+    assert 0.5 * both(of_second_order(closed), 1.0, 1e4) == pytest.approx(100.0)
+    assert 0.5 * both(of_second_order(open_), 1.0, 1e4) == pytest.approx(5000.5)
 
 
 @pytest.mark.parametrize("wedge", [1, 2, 3])

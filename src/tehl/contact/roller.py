@@ -80,20 +80,29 @@ class Roller(Line):
         """
         return 0.5 * x**2 + self.rise(y)
 
+    @property
+    def widest(self) -> float:
+        """Half-width of the slice that carries most, over that of the mean load [-]."""
+        return math.sqrt(float(self.share(np.linspace(-1.0, 1.0, 201)).max()))
+
     def share(self, y: Array) -> Array:
         """Return the load of slices at Y over the mean one, if each deflects by itself [-].
 
-        By C times its load, in units of b^2/R with C = (1 + 2 ln 4 kappa)/4.
+        By C times its load, in units of b^2/R with C = (1 + 2 ln 4 kappa c)/4 and c the part of the
+        length that touches.
         """
-        slices = np.linspace(-1.0, 1.0, 201)
-        compliance = 0.25 * (1.0 + 2.0 * math.log(2.0 * self.length / self.half_width))
-        rises, low = self.rise(slices), float(self.rise(slices).min())
-        high = float(rises.max()) + compliance
+        rises = self.rise(np.linspace(-1.0, 1.0, 201))
+
+        def compliance(high: float) -> float:
+            touching = 2.0 * self.length / self.half_width * float((rises < high).mean())
+            return 0.25 * (1.0 + 2.0 * math.log(max(touching, 1.0)))
+
+        low, high = float(rises.min()), float(rises.max()) + compliance(math.inf)
         for _ in range(60):
             middle = 0.5 * (low + high)
-            mean = float(np.maximum(middle - rises, 0.0).mean()) / compliance
+            mean = float(np.maximum(middle - rises, 0.0).mean()) / compliance(middle)
             low, high = (middle, high) if mean < 1.0 else (low, middle)
-        return np.maximum(high - self.rise(y), 0.0) / compliance
+        return np.maximum(high - self.rise(y), 0.0) / compliance(high)
 
     def dry_pressure(self, x: Array, y: Array) -> Array:
         """Return that of slices of `share`, sqrt(f - X^2).

@@ -38,6 +38,10 @@ class Shape(Protocol):
     def sides(self) -> tuple[float, float]:
         """Side edges of the domain of a line or of a roller, in half-widths."""
 
+    @property
+    def widest(self) -> float:
+        """Half-width of the slice of a roller that carries most, over that of the mean load [-]."""
+
     def gap(self, x: Array, y: Array) -> Array:
         """Return the undeformed gap H [-] at X, Y that broadcast."""
 
@@ -85,6 +89,7 @@ class Ellipse:
     speed_power = 0.75
     as_line = False
     sides = LINE_WIDTH
+    widest = 1.0
 
     @classmethod
     def of(cls, radii: Radii) -> "Ellipse":
@@ -268,6 +273,11 @@ class Line:
     across = 0.0
     as_line = True
     sides = LINE_WIDTH
+
+    @property
+    def widest(self) -> float:
+        """All slices are alike."""
+        return 1.0
 
     def gap(self, x: Array, y: Array) -> Array:
         """Return X^2/2.

@@ -87,7 +87,7 @@ def recommended_domain(
     """
     along, across = gap_widths(groups)
     if groups.shape.as_line:
-        return line_domain(along, error, groups.shape.sides)
+        return line_domain(along, error, groups.shape)
     larger = max(USUAL_PLAIN_ERROR / error, 1.0) ** (1.0 / 3.0)
     if near and groups.twist == 0.0:
         inlet, side = (

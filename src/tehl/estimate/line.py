@@ -3,8 +3,8 @@
 import math
 
 from tehl.base.typing import np
-from tehl.contact.options import LINE_WIDTH, USUAL_PLAIN_ERROR, Domain, Interval
-from tehl.contact.shape import LINE
+from tehl.contact.options import USUAL_PLAIN_ERROR, Domain
+from tehl.contact.shape import LINE, Shape
 from tehl.estimate.scaling import Groups
 
 LINE_ERROR, HEATED_LINE_ERROR = 0.002, 0.005
@@ -14,6 +14,8 @@ LINE_ROUGH_NODES = 8192
 """Most nodes because of waves of the surfaces."""
 LEAST_LINE_INLET, INLET_ERROR_PART = 3.4, 0.15
 """Least distance of the inlet edge, in half-widths, and error by it over the error to reach."""
+WIDEST_INLET = 3.0
+"""That of a roller, in half-widths of its widest slice."""
 OUTLET = 5.0 / 11.0
 """Outlet over inlet: X = 0 is a node of every grid of 16 intervals or more."""
 FIELD_EDGE_ERROR, FIELD_EDGE_POWER = 0.5, 5.0
@@ -28,7 +30,7 @@ LINE_BAR, LINE_NODES = 0.06, tuple(2**k * n + 1 for k in range(5, 10) for n in (
 """Error of the film over M h^2, and numbers of nodes: on fewer a solve is hardly cheaper."""
 
 
-def line_domain(along: float, error: float, sides: Interval = LINE_WIDTH) -> Domain:
+def line_domain(along: float, error: float, shape: Shape = LINE) -> Domain:
     """Return the domain for a film with a relative ``error``.
 
     Parameters
@@ -37,17 +39,17 @@ def line_domain(along: float, error: float, sides: Interval = LINE_WIDTH) -> Dom
         Where the undeformed gap is the central film [half-widths].
     error : float
         Relative error of the film that is acceptable [-].
-    sides : (float, float)
-        Side edges [half-widths].
+    shape : Shape
+        Of its widest slice the edges keep their distance.
     """
     thick = along * (FIELD_EDGE_ERROR / (INLET_ERROR_PART * min(error, USUAL_PLAIN_ERROR))) ** (
         1.0 / FIELD_EDGE_POWER
     )
-    inlet = math.ceil(10.0 * max(LEAST_LINE_INLET, thick)) / 10.0
-    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=sides)
+    inlet = math.ceil(10.0 * max(LEAST_LINE_INLET, thick, WIDEST_INLET * shape.widest)) / 10.0
+    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=shape.sides)
 
 
-def line_supplied_domain(ratio: float, film: float, sides: Interval = LINE_WIDTH) -> Domain:
+def line_supplied_domain(ratio: float, film: float, shape: Shape = LINE) -> Domain:
     """Return a domain that contains the film of a starved contact.
 
     In the oil of a rigid cylinder the gap at the meniscus is the film times 1 + 2.3/(1 - r); here
@@ -59,15 +61,15 @@ def line_supplied_domain(ratio: float, film: float, sides: Interval = LINE_WIDTH
         Oil that enters over what the flooded contact passes on, below one [-].
     film : float
         Central film to expect [-].
-    sides : (float, float)
-        Side edges [half-widths].
+    shape : Shape
+        Of its widest slice the edges keep their distance.
     """
     gap = MENISCUS_GAP * film / max(1.0 - ratio, 1.0 - LARGEST_SUPPLY)
     inlet = LEAST_LINE_INLET
     while float(LINE.dry_gap(np.array(inlet), np.array(0.0))) < gap:
         inlet *= 1.05
-    inlet = math.ceil(10.0 * inlet) / 10.0
-    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=sides)
+    inlet = math.ceil(10.0 * max(inlet, WIDEST_INLET * shape.widest)) / 10.0
+    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=shape.sides)
 
 
 def line_field_error(along: float, domain: Domain) -> float:

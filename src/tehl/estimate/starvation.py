@@ -212,7 +212,7 @@ def starved_domain(scaled: ScaledProblem) -> Domain:
     across = groups.shape.across
     if groups.shape.as_line:
         ratio = oil.largest / flooded_oil(scaled)
-        return line_supplied_domain(ratio, supplied_film(scaled), groups.shape.sides)
+        return line_supplied_domain(ratio, supplied_film(scaled), groups.shape)
     # far upstream the pressure returns 3/(3 + 2 D) of the oil that the surfaces drag in
     backflow = 1.5 / groups.radius_ratio + 1.0
     margin = MENISCUS_GAP_MARGIN + MENISCUS_GAP_SLOPE * min(

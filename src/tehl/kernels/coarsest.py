@@ -7,12 +7,13 @@ by row; ``influence[m, k]`` is the film at node m per unit pressure at node k. T
 node are kept in the order here, east, west, north, south, and two nodes upstream along x and y.
 """
 
+from math import sqrt
 from typing import NamedTuple
 
 from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import CLOSED, STEADILY, Stencil, flux_weights, inner_end
+from tehl.kernels.reynolds import CLOSED, STEADILY, Stencil, both, flux_weights, inner_end
 
 # part of a change of the pressure that asperities take by the film it moves
 NEGLIGIBLE_COARSE_PART = 1e-6
@@ -158,6 +159,11 @@ def _add_face(state: Coarse, stencil: Stencil, work: Work, n: int) -> None:
     mine = c * (state.stretch_x[here] if along else state.stretch_y[here])
     theirs = c * (state.stretch_x[there] if along else state.stretch_y[there])
     face = mine * state.eps[here] + theirs * state.eps[there]
+    if not along and stencil.arithmetic < 1.0:
+        ratio = sqrt(theirs * state.eps[there] / (mine * state.eps[here]))
+        face = both(stencil, mine * state.eps[here], theirs * state.eps[there])
+        mine *= ratio + stencil.arithmetic * (1.0 - ratio)
+        theirs *= 1.0 / ratio + stencil.arithmetic * (1.0 - 1.0 / ratio)
     drop = state.p[there] - state.p[here]
     by_p[HERE] += drop * mine * state.eps_p[here] - face
     by_h[HERE] += drop * mine * state.eps_h[here]

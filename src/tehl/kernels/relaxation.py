@@ -15,6 +15,7 @@ proven for tridiagonal M-matrices (Brennan and Schwartz 1977).
 Eight lines of one colour are solved at once (`tehl.kernels.lanes`).
 """
 
+from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -74,7 +75,9 @@ class LineRelaxation(NamedTuple):
     on, all of line j is frozen. A dipole lowers each neighbour along x by ``along`` and along y by
     ``aside`` of its rise. ``touches`` is 1 with asperities finer than the grid. ``curved`` (2, n)
     is the wedge along y of the film of a point and of a dipole, over rho and the drift, where the
-    surfaces spin; lines of negative speed are then solved against x, in their direction.
+    surfaces spin; lines of negative speed are then solved against x, in their direction. ``apart``
+    is 1 on a roller whose lines are far apart: then it matters to a node what flows to the lines
+    beside, not how well they conduct or if they are cavitated.
     """
 
     xi: float
@@ -94,6 +97,7 @@ class LineRelaxation(NamedTuple):
     aside: float = 0.25
     touches: int = 0
     curved: Array = np.zeros((0, 0))
+    apart: int = 0
 
 
 def workspace(nx: int) -> tuple[Array, Records, Array]:
@@ -113,10 +117,13 @@ def mark_dipoles(film: Film, stencil: Stencil, relaxation: LineRelaxation) -> No
         south, north = row_below(j, ny), row_above(j, ny)
         for i in range(1, relaxation.ends[j]):
             along = max(eps_x[j, i], eps_x[j, i - 1], eps_x[j, i + 1])
-            across = max(eps_y[j, i], eps_y[south, i], eps_y[north, i])
-            smallest = min(
-                abs(p[j, i]), abs(p[j, i - 1]), abs(p[j, i + 1]), abs(p[south, i]), abs(p[north, i])
-            )
+            smallest = min(abs(p[j, i]), abs(p[j, i - 1]), abs(p[j, i + 1]))
+            if relaxation.apart:
+                faces = eps_y[j, i] * max(eps_y[south, i], eps_y[north, i])
+                across = sqrt(faces) * stencil.cy / stencil.cx
+            else:
+                across = max(eps_y[j, i], eps_y[south, i], eps_y[north, i])
+                smallest = min(smallest, abs(p[south, i]), abs(p[north, i]))
             if max(along, across) <= limit and smallest > 0.0:
                 kind[j, i] = 1
 
@@ -582,7 +589,8 @@ def add_dipoles(film: Film, relaxation: LineRelaxation, mirror: int) -> None:
         end = max(ends[j], ends[south], ends[north])
         for i in range(1, min(end + 1, nx - 1)):
             around = relaxation.along * (delta[j, i - 1] + delta[j, i + 1])
-            around += relaxation.aside * (delta[south, i] + delta[north, i])
+            if not relaxation.apart or p[j, i] != 0.0:
+                around += relaxation.aside * (delta[south, i] + delta[north, i])
             changed = p[j, i] + delta[j, i] - around
             p[j, i] = changed if touches else max(changed, 0.0)
 

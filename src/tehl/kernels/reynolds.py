@@ -39,11 +39,11 @@ class Stencil(NamedTuple):
     or `IN_TIME` if oil is conserved in cavities too. In a time step what a cell holds does not
     depend on the present of others.
     ``third`` is zero, or 1/3 of ``1/dx``: the weight of the third difference that makes a wedge of
-    second order one of third order, with geometric means of the conductance. From column ``fore``
-    on, behind the centre, half of it is added: all of it overshoots at the pressure spike.
-    ``logarithmic`` is the part of the arithmetic mean beside the geometric one along y: a third
-    makes it nearly a logarithmic one. Relaxation keeps the wedge of second order, which has the
-    larger diagonal.
+    second order one of third order, with geometric means of the conductance along x. From column
+    ``fore`` on, behind the centre, half of it is added: all of it overshoots at the pressure spike.
+    ``arithmetic`` is the part of the arithmetic mean of the conductance along y beside the
+    geometric one: a third makes it nearly a logarithmic one. Relaxation keeps the wedge of second
+    order, which has the larger diagonal.
     """
 
     cx: float
@@ -55,7 +55,7 @@ class Stencil(NamedTuple):
     conserves: int = 0
     third: float = 0.0
     fore: int = 0
-    logarithmic: float = 0.0
+    arithmetic: float = 1.0
 
 
 @helper
@@ -82,9 +82,9 @@ def inner_end(ny: int, mirror: int) -> int:
 @helper
 def both(stencil: Stencil, here: float, there: float) -> float:
     """Return twice the conductance of the face between two nodes of a column."""
-    if stencil.third > 0.0:
+    if stencil.arithmetic < 1.0:
         geometric = 2.0 * sqrt(here * there)
-        return geometric + stencil.logarithmic * (here + there - geometric)
+        return geometric + stencil.arithmetic * (here + there - geometric)
     return here + there
 
 

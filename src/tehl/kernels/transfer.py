@@ -9,7 +9,7 @@ Fine fields are (ny, nx), coarse ones ((ny+1)/2, (nx+1)/2) or as many along one 
 from tehl.base.typing import Array, FlagArray
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import clear, inner_end, row_above, row_below
+from tehl.kernels.reynolds import CLOSED, clear, inner_end, row_above, row_below
 
 
 @helper
@@ -93,12 +93,15 @@ def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
             if j == inner_end(ny, mirror) or i == 0 or i == nx - 1 or (j == 0 and mirror == 0):
                 coarse[j, i] = fine[fj, fi]
                 continue
-            south, north, west, east = beside(fj, fi, step, fine.shape[0])
+            # at the ends of a roller the pressure is steep: that of the end alone
+            is_end = j == ny - 1 or (j == 0 and not mirror % CLOSED)
+            near = (1, step[1]) if is_end else step
+            south, north, west, east = beside(fj, fi, near, fine.shape[0])
             smallest = abs(fine[fj, fi])
             for row in (south, fj, north):
                 for column in (west, fi, east):
                     smallest = min(smallest, abs(fine[row, column]))
-            coarse[j, i] = _weigh(fine, fj, fi, step) if smallest > 0.0 else fine[fj, fi]
+            coarse[j, i] = _weigh(fine, fj, fi, near) if smallest > 0.0 else fine[fj, fi]
 
 
 @kernel

@@ -216,7 +216,7 @@ def jacobian(
         weight = half if cavity is None else half * cavity.open_faces(there, way)
         flow = flow + rows(weight * _both(stencil, n.here @ eps, there @ eps, way)) @ step
         pressed = weight * (step @ p)
-        if stencil.third == 0.0:
+        if _is_arithmetic(stencil, way):
             opening = opening + rows(pressed) @ (there + n.here)
         else:  # of the secant conductance: the tangent one differs where the film thins
             both = n.here @ film.eps.ravel(), there @ film.eps.ravel()
@@ -245,20 +245,24 @@ def _sides(
 
 def _both(stencil: Stencil, here: Array, there: Array, way: int) -> Array:
     """Return twice the conductance of faces, as `tehl.kernels.reynolds` has it."""
-    if stencil.third == 0.0:
+    if _is_arithmetic(stencil, way):
         return there + here
     geometric = 2.0 * np.sqrt(here * there)
     return geometric + _arithmetic(stencil, here, there, way) * (here + there - geometric)
 
 
+def _is_arithmetic(stencil: Stencil, way: int) -> bool:
+    return stencil.third == 0.0 if way else stencil.arithmetic == 1.0
+
+
 def _arithmetic(stencil: Stencil, here: Array, there: Array, way: int) -> Array:
     """Return the part of the arithmetic mean beside the geometric one."""
     rises = np.where(way * (there - here) > 0.0, 1.0 / 3.0, 0.0)
-    return rises if way else np.full(here.shape, stencil.logarithmic)
+    return rises if way else np.full(here.shape, stencil.arithmetic)
 
 
 def _slopes(stencil: Stencil, here: Array, there: Array, way: int) -> tuple[Array, Array]:
-    """Return the derivatives of twice a conductance of third order by those of both nodes."""
+    """Return the derivatives of twice a conductance, not of an arithmetic mean, by both nodes'."""
     part = _arithmetic(stencil, here, there, way)
     inside = (here > 0.0) & (there > 0.0)  # rows of edge nodes are zero
     ratio = np.sqrt(np.where(inside, there, 1.0) / np.where(inside, here, 1.0))

@@ -46,6 +46,8 @@ def steady_stencil(
     wedge_order : {1, 2, 3}
         Order of the upstream difference: (1, -1), (3/2, -2, 1/2) or (2, 3, -6, 1)/6 over dx, the
         last with geometric means of the conductance, logarithmic ones along y if it is oblique.
+        Those along y of rollers are always geometric: at their ends the conductance changes by
+        orders of magnitude from line to line.
     conserves : bool
         Whether oil is conserved in cavities.
     speed : float
@@ -65,8 +67,14 @@ def steady_stencil(
         conserves=STEADILY if conserves else 0,
         third=speed / (3.0 * grid.dx) if wedge_order > 2 else 0.0,
         fore=int(np.searchsorted(grid.x, 0.0)),
-        logarithmic=1.0 / 3.0 if oblique else 0.0,
+        arithmetic=_arithmetic_part(wedge_order, is_closed=grid.is_closed, oblique=oblique),
     )
+
+
+def _arithmetic_part(wedge_order: int, *, is_closed: bool, oblique: bool) -> float:
+    if wedge_order < 3 and not is_closed:
+        return 1.0
+    return 1.0 / 3.0 if oblique else 0.0
 
 
 class Entrainment(NamedTuple):
@@ -105,10 +113,14 @@ def conductance(stencil: Stencil, here: Array, there: Array) -> Array:
         eps = rho H^3/(eta lambda) [-] at the nodes on both sides of each face, of one shape.
     """
     arithmetic: Array = 0.5 * (here + there)
-    if stencil.third == 0.0:
-        return arithmetic
     geometric: Array = np.sqrt(here * there)
-    return geometric + stencil.logarithmic * (arithmetic - geometric)
+    return geometric + stencil.arithmetic * (arithmetic - geometric)
+
+
+def of_second_order(stencil: Stencil) -> Stencil:
+    """Return the weights of a wedge of second order at most; means on rollers stay geometric."""
+    is_closed = stencil.mirror >= CLOSED
+    return stencil._replace(third=0.0, arithmetic=stencil.arithmetic if is_closed else 1.0)
 
 
 def step_stencil(stencil: Stencil, time_step: float) -> Stencil:
@@ -127,7 +139,7 @@ def step_stencil(stencil: Stencil, time_step: float) -> Stencil:
         Step [a_x / u_m].
     """
     conserves = IN_TIME if stencil.conserves else 0
-    stencil = stencil._replace(third=0.0)
+    stencil = of_second_order(stencil)
     return stencil._replace(w0=1.5 / time_step, w1=0.0, w2=0.0, conserves=conserves)
 
 

@@ -25,7 +25,7 @@ from tehl.operators.film import gap
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence, influence_of
 from tehl.operators.load import Load
-from tehl.operators.reynolds import Entrainment, entrainment, steady_stencil
+from tehl.operators.reynolds import Entrainment, entrainment, of_second_order, steady_stencil
 from tehl.operators.summits import AsperityTable, asperity_table
 
 FLOOR = 0.02
@@ -71,7 +71,7 @@ class Equations:
     @property
     def robust(self) -> reynolds.Stencil:
         """Weights on the coarser grids of a cycle: a wedge of second order at most."""
-        return self.stencil._replace(third=0.0)
+        return of_second_order(self.stencil)
 
     def at(self, moment: Moment, scaled: ScaledProblem) -> "Equations":
         """Return the equations with load, gap and pressure on the edges at another moment.

@@ -117,6 +117,7 @@ class Hierarchy:
         widest, dense = max(1.0, (2.0 * max(film, high)) ** 0.5), LARGEST_DENSE
         if scaled.groups.shape.as_line:
             widest *= ROLLER_COARSEST if finest.is_closed else LINE_COARSEST
+            widest *= scaled.groups.shape.widest
             dense = LINE_DENSE
         touches = scaled.problem.asperities is not None
         is_long = has_long_cells(finest, scaled.groups, touches=touches)
