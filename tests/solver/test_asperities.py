@@ -103,7 +103,7 @@ def test_film_and_asperities_satisfy_their_equations():
     assert film.asperity == pytest.approx(carried / scales.hertz_pressure, abs=1e-6)
     assert film.h == pytest.approx(mean_gap(gaps) * sigma / scales.film_thickness, rel=1e-5)
     assert film.p.min() > -1e-6
-    carried = total.sum() * grid.dx * grid.dy + level.sources.outside
+    carried = total.sum() * grid.dx * grid.dy + level.outside
     assert carried == pytest.approx(2.0 * math.pi / 3.0, rel=2e-3)
     flow = np.empty(grid.shape)
     reynolds.operator(film, level.stencil, flow)

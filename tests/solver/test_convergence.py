@@ -14,6 +14,8 @@ from tehl.solver.judging.convergence import (
 from tehl.solver.judging.grid_errors import (
     LEAST_CENTRAL,
     LEAST_MINIMUM,
+    THIRD_CHANGE,
+    THIRD_PART,
     UNEVEN,
     error_estimate,
     further_errors,
@@ -61,6 +63,23 @@ def test_two_grids_that_agree_by_chance_have_the_bar_of_their_mesh() -> None:
     estimate = error_estimate(traces, 3, least=0.03)
     assert estimate.discretisation_minimum == pytest.approx(LEAST_MINIMUM * 0.03)
     assert estimate.discretisation_central == pytest.approx(LEAST_CENTRAL * 0.03)
+
+
+@pytest.mark.parametrize(
+    ("change", "bar"),
+    [(0.02, 1.25 * 0.006), (0.04, THIRD_CHANGE * 0.04), (0.06, THIRD_PART * 0.06)],
+)
+def test_a_film_of_third_order_has_little_more_than_the_bar_to_expect(
+    change: float, bar: float
+) -> None:
+    """A bearing (M = 601) changes by 2 % from 81 to 161 nodes, and by 0.04 % from there on."""
+    traces = [GridTrace(), GridTrace()]
+    for trace, film in zip(traces, (1.0 + change, 1.0), strict=True):
+        trace.note(film, film)
+        trace.note(film, film)
+    estimate = error_estimate(traces, 3, least=0.006, most=1.25 * 0.006)
+    assert estimate.discretisation_central == pytest.approx(bar)
+    assert estimate.discretisation_minimum == pytest.approx(bar)
 
 
 def test_damped_factors_converge_to_the_new_ones() -> None:

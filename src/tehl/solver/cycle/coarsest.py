@@ -17,8 +17,9 @@ MOST_CARRIED, MOST_HALVINGS = 1.5, 8
 exceed by little even when dry; and most times."""
 LONGEST_STEP = 0.3
 """Largest change of pressure in a Newton step, in Hertz pressures."""
-CONTRACTION = 0.3
-"""Second over first step with the matrix of an earlier state, above which that is too far away."""
+CONTRACTION, SMALL_REPEATED, MOST_REPEATED = 0.5, 0.05, 4
+"""Steps with the matrix of an earlier state: over the one before, above which that is too far away,
+over the first one, below which they have converged, and most after the first."""
 
 
 class Factored(NamedTuple):
@@ -47,21 +48,31 @@ class CoarsestSolver:
         self.last: Factored | None = None
 
     def step(self) -> None:
-        """Perform a Newton step in place, or two with an earlier matrix if these converge.
+        """Perform a Newton step in place, or some with an earlier matrix if these converge.
 
         The state changes little from cycle to cycle, and the matrix takes ten times as long as the
         rest (simplified Newton method: Deuflhard 2011, section 2.1).
         """
         before = self.level.state()
-        if self.last is not None:
-            first = self._take(self.last)
-            if self._take(self.last) < CONTRACTION * first:
-                return
-            self.level.set_state(*before)
+        if self.last is not None and self._converges(self.last):
+            return
+        self.level.set_state(*before)
         self.newton_step()
 
+    def _converges(self, known: Factored) -> bool:
+        """Take steps with the matrix of an earlier state; return whether they converge."""
+        first = before = self._take(known)
+        for _ in range(MOST_REPEATED):
+            last = self._take(known)
+            if last < SMALL_REPEATED * first:
+                return True
+            if not last < CONTRACTION * before:
+                return False
+            before = last
+        return False
+
     def newton_step(self) -> float:
-        """Perform a Newton step of limited length in place; return the largest change of P."""
+        """Perform a Newton step of limited length in place; return the largest change."""
         level = self.level
         level.update()
         self.last = self._factored()
@@ -102,11 +113,14 @@ class CoarsestSolver:
         return Factored(state, work._replace(matrix=np.empty((0, 0))), count, factors, pivots)
 
     def _take(self, known: Factored) -> float:
-        """Take a step of limited length by a linearised system; return the largest change of P."""
+        """Take a step of limited length by a linearised system; return the largest change.
+
+        Of the pressures [-], and of the rigid approach relatively, where that is above one.
+        """
         level, film = self.level, self.level.film
         level.update()
         system, work, free = self._system(), known.work, known.work.free[: known.size]
-        before = level.pressure.copy()
+        before, approach = level.pressure.copy(), level.rigid_approach
         carried = film.p.copy(), film.asperity.copy()
         work.rhs[: known.size] = np.where(work.dry[free], 0.0, system.residual[free])
         work.rhs[known.size] = system.missing_load
@@ -118,7 +132,8 @@ class CoarsestSolver:
         level.move(change)
         if level.equations.asperities is not None:
             self._shorten(carried, change)
-        return float(np.abs(level.pressure - before).max())
+        moved = abs(level.rigid_approach - approach) / max(1.0, abs(level.rigid_approach))
+        return max(float(np.abs(level.pressure - before).max()), moved)
 
     def _shorten(self, before: tuple[Array, Array], change: float) -> None:
         """Halve a step until the asperities, steep as they are, carry no more than is likely."""

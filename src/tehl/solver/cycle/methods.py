@@ -50,8 +50,8 @@ surfaces may touch: dense equations of more take longer than the iterations they
 DAMPED_MEMORY = 3
 """Most earlier cycles combined if heat and thinning are damped: older ones had another flow."""
 FIRST_STEPS, TOUCHING_STEPS, SMALL_STEP = 6, 20, 0.03
-"""Most Newton steps on the coarsest grid at the start, and where surfaces may touch, and change of
-pressure [-] that ends the first ones; that they may not converge does no harm."""
+"""Most Newton steps on the coarsest grid at the start, and where surfaces may touch, and the change
+that ends the first ones; that they may not converge does no harm."""
 
 Iterate = Callable[[Callable[[], object]], float]
 """Performs a step with all that follows it, and returns the residual."""

@@ -1,5 +1,6 @@
 """The accuracy to reach: error estimates of a run so far, and whether a finer grid follows."""
 
+import math
 import time
 from dataclasses import dataclass, field, replace
 
@@ -25,6 +26,9 @@ FACTOR = 5.0
 """Expected time on a grid over that on the next coarser one, which has a quarter of its nodes."""
 MOST_TRIES = 2
 """Finer grids that follow grids on which the cycles do not converge."""
+MOST_EXPECTED = 1.25
+"""Largest over usual bar of a flooded film with a wedge of third order; with scarce oil the edge of
+the film decides."""
 LEAST_HALVINGS = 3
 """Halvings of the smallest grid that is planned."""
 NEGLIGIBLE_ITERATION_ERROR = 0.05
@@ -70,12 +74,15 @@ def _by_grids(
         comparable = [trace for trace in traces if not trace.diverged]
         if len(comparable) < 2:
             return None
+        expected = _expected_bar(hierarchy, level)
+        is_flooded = scaled.problem.supply is None
         return error_estimate(
             comparable,
             order,
             domain,
             newtonian=newtonian,
-            least=_least_bar(hierarchy, level),
+            least=expected,
+            most=MOST_EXPECTED * expected if expected and is_flooded else math.inf,
             extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == comparable[-2:],
             line=level.grid.ny == 1,
         )
@@ -87,7 +94,7 @@ def _by_grids(
     return error_estimate(comparable, order, domain, rough=True, newtonian=newtonian)
 
 
-def _least_bar(hierarchy: Hierarchy, level: Level) -> float:
+def _expected_bar(hierarchy: Hierarchy, level: Level) -> float:
     """Return the error bar to expect with a wedge of third order; zero where there is no fit."""
     if hierarchy.options.order < 3 or level.grid.ny == 1:
         return 0.0
