@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from tehl.base.errors import InputError
 from tehl.contact.stress import Stress
 from tehl.plots import pictures_of
 from tehl.plots.animation import Movie
-from tehl.plots.stress import moving_section, stress_section
+from tehl.plots.stress import DEEPEST_SHOWN, dress, moving_section, stress_section
 from tehl.post.stress.below import with_stress
 from tehl.post.stress.moving import moving_stress
 from tests.fixtures_result import make_result
@@ -33,6 +34,14 @@ def test_the_section_has_the_largest_shear_and_profiles_of_the_dry_contact():
     assert shear.max() == pytest.approx(body.shear * 1e-9, rel=1e-2)
     assert depth[np.argmax(shear)] == pytest.approx(body.shear_depth * 1e6, rel=0.2)
     assert axes[0].get_ylim()[0] > axes[0].get_ylim()[1]  # the depth points down
+
+
+@pytest.mark.parametrize(("length", "stretch"), [(2.0, 1.0), (60.0, 30.0)])
+def test_sections_along_a_long_contact_are_stretched_to_be_read(result, length, stretch):
+    axes, reach = Figure().subplots(), DEEPEST_SHOWN * result.scales.half_width_x * 1e6
+    dress(axes, result, (-0.5 * length * reach, 0.5 * length * reach), "y")
+    assert axes.get_aspect() == pytest.approx(stretch)
+    assert ("stretched" in axes.get_ylabel()) == (stretch > 1.0)
 
 
 def test_a_result_without_stresses_says_how_to_get_them(result):

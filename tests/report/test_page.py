@@ -3,9 +3,10 @@
 import re
 import shutil
 import subprocess
-from dataclasses import replace
+from dataclasses import fields, replace
 from html.parser import HTMLParser
 
+import numpy as np
 import pytest
 
 from tehl.api.problem import ContactProblem
@@ -21,6 +22,7 @@ from tehl.report.page import report_text
 from tehl.report.readable import input_rows
 from tehl.report.rendering import FILTERS, UNITS
 from tehl.result.bars import Estimate
+from tehl.result.fields import FilmDynamics
 from tehl.result.quantities import QUANTITIES
 from tehl.result.solution import Hint, Status
 from tests.fixtures_result import CASE
@@ -110,6 +112,19 @@ def test_pictures_of_heat_are_embedded(thermal):
     page = Page(report_text(thermal, dpi=30))
     assert len(page.sources) == 10
     assert any("plane y = 0" in word for word in page.words)
+
+
+def test_dynamics_have_a_table_and_a_picture(result, monkeypatch):
+    caption = module.CAPTIONS["dynamics"]
+    monkeypatch.setattr(module, "CAPTIONS", {"dynamics": caption})
+    names = [one.name for one in fields(FilmDynamics)]
+    film = FilmDynamics(**{name: np.array([4e7, 4.125e7]) for name in names})
+    film = replace(film, frequency=np.array([0.0, 2.5e4]))
+    page = Page(report_text(replace(result, dynamics=film), dpi=30))
+    assert "Stiffness and damping" in page.headings
+    words = " ".join(page.words)
+    assert all(word in words for word in ("25000", "41.25 N/µm", caption))
+    assert len(page.sources) == 1
 
 
 @pytest.mark.usefixtures("one_picture")

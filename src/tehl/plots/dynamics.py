@@ -19,7 +19,7 @@ def dynamics_curves(
 ) -> Figure:
     """Draw stiffness and damping of the film over frequency, with their error bars.
 
-    The dry contact has the stiffness of the dashed line. The axis above has omega a_x/u_m.
+    The dry point contact has the stiffness of the dashed line. The axis above has omega a_x/u_m.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def dynamics_curves(
         one.fill_between(hertz, *_band(value, bar, shown), color=colour, alpha=0.2, lw=0)
         one.set(xscale="log", ylabel=label)
         one.grid(lw=0.3)
-    if not result.problem.contact.is_line:  # load ~ approach^1.5
+    if not result.problem.contact.has_lines:  # load ~ approach^1.5
         dry = 1.5 * result.load / result.problem.hertz.approach * _PER_UM
         axes[0].axhline(dry, color="0.4", ls="--", lw=1.0, label="dry contact")
     axes[0].legend(**PLAIN, title="of one metre" if result.problem.contact.is_line else None)

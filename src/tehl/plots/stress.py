@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
+from matplotlib.ticker import MaxNLocator
 from scipy.interpolate import make_interp_spline
 
 from tehl.base.errors import InputError
@@ -23,6 +24,8 @@ from tehl.plots.frame import (
     figure,
     inner_levels,
     mark_levels,
+    shape,
+    stretch_in_words,
 )
 from tehl.post.stress.measures import largest_shear
 from tehl.post.stress.moving import MovingStress, moving_stress
@@ -33,6 +36,11 @@ from tehl.result.transient import TransientSolution
 
 DEEPEST_SHOWN = 1.5
 """Depth that sections show [smaller half-widths of the Hertz contact]."""
+LONGEST_SECTION, STRETCHED_SECTION = 3.0, 2.0
+"""Length of a section over its depth up to which both have one scale, and of longer ones as drawn,
+which are stretched."""
+SLENDER_FLOOR = 1.5
+"""Height of the map of a plane over its width, as drawn, beyond which the figure is higher."""
 PLANES = {"x": "y = 0", "y": "x = 0"}
 """Plane of a section along x or y."""
 DRAWN_DEPTHS = 200
@@ -97,7 +105,9 @@ def stress_planes(result: Solution, *, title: bool | None = True) -> Figure:
     body = numbers.worse
     row = int(np.argmax(found.body == body.body))
     deep = float(found.floor_depth[row]) * MICRO
-    picture = figure(result, (9.6, 4.6), f"below surface {body.body}", title=title)
+    slender = shape(result) > SLENDER_FLOOR
+    size = (9.6, 5.6) if slender else (9.6, 4.6)
+    picture = figure(result, size, f"below surface {body.body}", title=title)
     picture.set_layout_engine("compressed")
     section, floor = picture.subplots(1, 2)
     _draw_section(section, result, found, found.across[row], "y")
@@ -105,6 +115,8 @@ def stress_planes(result: Solution, *, title: bool | None = True) -> Figure:
     mesh = floor.pcolormesh(x, y, found.floor[row] * GIGA, cmap="viridis", **MAP)
     dress_contact(floor, result)
     floor.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), title=f"{deep:.4g} µm deep")
+    if slender:
+        floor.xaxis.set_major_locator(MaxNLocator(2))
     colour_bar(floor, mesh, "largest shear stress [GPa]")
     return picture
 
@@ -115,20 +127,33 @@ def _draw_section(
     """Draw a map over x or y and depth, which points down."""
     depth, shown = finer(found.depth, shear * GIGA, _reach(result))
     places = getattr(found, along) * MICRO, depth * MICRO
-    _dress(axes, result, (float(places[0][0]), float(places[0][-1])), along)
+    dress(axes, result, (float(places[0][0]), float(places[0][-1])), along)
     mesh = axes.pcolormesh(*places, shown, cmap="viridis", clim=(0.0, shown.max()), **MAP)
     style: dict[str, Any] = {"colors": "white", "linewidths": 0.5}
     lines = axes.contour(*places, shown, levels=inner_levels((0.0, float(shown.max()))), **style)
     mark_levels(colour_bar(axes, mesh, f"largest shear stress on {PLANES[along]} [GPa]"), lines)
 
 
-def _dress(axes: Axes, result: Solution, x: tuple[float, float], along: str = "x") -> None:
-    """Give the axes of a section its window and the edges of the Hertz contact."""
+def dress(axes: Axes, result: Solution, x: tuple[float, float], along: str = "x") -> None:
+    """Give the axes of a section its window and the edges of the Hertz contact.
+
+    Parameters
+    ----------
+    axes, result : Axes, Solution
+        Of a section, and what gives its depth.
+    x : (float, float)
+        Ends of the section [µm].
+    along : {"x", "y"}
+        Where it runs; a long one is stretched so that it can be read.
+    """
     reach, scales = _reach(result) * MICRO, result.scales
     width = MICRO * (scales.half_width_x if along == "x" else scales.half_width_y)
     label = f"{along} {'along' if along == 'x' else 'across'} entrainment [µm]"
-    axes.set(xlabel=label, ylabel="depth z [µm]", xlim=x, ylim=(reach, 0.0))
-    axes.set_aspect(1.0)
+    length = (x[1] - x[0]) / reach
+    stretch = length / STRETCHED_SECTION if length > LONGEST_SECTION else 1.0
+    depth = "depth z [µm]" if stretch == 1.0 else f"depth z [µm], {stretch_in_words(stretch)}"
+    axes.set(xlabel=label, ylabel=depth, xlim=x, ylim=(reach, 0.0))
+    axes.set_aspect(stretch)
     for edge in (-width, width):
         axes.plot([edge, edge], [0.0, 0.12 * reach], color="0.25", lw=1.2, clip_on=False)
 
@@ -228,7 +253,7 @@ def section_image(
     depth, x = found.depth, found.x * MICRO
     shown, deepest = section_rows(run, found, number), max(_reach(run.start), 2.0 * depth[0])
     extent = (float(x[0]), float(x[-1]), float(deepest * MICRO), float(depth[0] * MICRO))
-    _dress(axes, run.start, extent[:2])
+    dress(axes, run.start, extent[:2])
     style: dict[str, Any] = {"interpolation": "bilinear", "aspect": "equal", "extent": extent}
     return axes.imshow(shown, vmin=0.0, vmax=float(found.plane.max()) * GIGA, **style)
 

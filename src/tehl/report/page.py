@@ -47,6 +47,7 @@ CAPTIONS = {
     "temperature": "Temperature rise half-way between the surfaces, over the oil at the inlet.",
     "temperature_layers": "Temperature rise on both surfaces and in the film.",
     "temperature_section": "Temperature rise in the plane y = 0, over z/h and over z.",
+    "dynamics": "Stiffness and damping of the film over frequency, with their error bars.",
     "stress": "Largest shear stress on y = 0 below a surface, and the largest at each depth.",
     "stress_planes": "Largest shear stress on x = 0, and at the depth where it is largest.",
     "moving_stress": "Largest shear stress below a surface: when it is largest, and over time.",
