@@ -109,6 +109,13 @@ def test_cycles_of_heavily_loaded_rollers_converge(shape, load, length, points):
     assert (residuals[5] / residuals[0]) ** 0.2 < 0.5
 
 
+def test_single_nodes_at_the_ends_do_not_keep_cycles_from_a_finer_grid():
+    tilted = roller(12.0, moes_speed=15.0, length="8 mm", profile=LOGARITHMIC, tilt=2e-4)
+    found = tehl.solve(tilted)
+    assert {one.smoother for one in found.history} == {"fast"}
+    assert max(found.errors.central, found.errors.minimum) < 0.05
+
+
 def test_the_domain_of_a_crowned_roller_contains_its_widest_slice():
     problem = roller(60.0, profile={"shape": "crown", "radius": "0.25 m"})
     shape = ScaledProblem.of(problem).groups.shape
