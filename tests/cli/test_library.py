@@ -55,6 +55,10 @@ def test_the_lists_filter_and_one_entry_is_shown_in_full(monkeypatch, capsys):
     assert "3.65 GPa" in text
     assert "3.6 to 4.0 GPa" in text
     assert "GEARpie" in text
+    assert run(monkeypatch, "oils", "gear", "--json") == 0  # the source of others is GEARpie
+    assert all("gear" in one["name"] for one in json.loads(capsys.readouterr().out))
+    assert run(monkeypatch, "oils", "gearpie", "--json") == 0
+    assert len(json.loads(capsys.readouterr().out)) > 5
     assert run(monkeypatch, "oils", "olive") == 2
     assert "tehl oils lists 60" in capsys.readouterr().err
     assert run(monkeypatch, "solids", "--table") == 2

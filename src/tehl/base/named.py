@@ -52,9 +52,9 @@ class Named:
         return self.table["name"], *self.aliases
 
     @property
-    def text(self) -> str:
-        """All that a filter looks at."""
-        return " ".join((*self.words, self.family, self.table.get("source", ""))).lower()
+    def texts(self) -> tuple[str, str]:
+        """What a filter looks at: names and family, and then the source."""
+        return " ".join((*self.words, self.family)).lower(), self.table.get("source", "").lower()
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,11 +53,13 @@ def solids(text: Text = None, *, table: AsTable = False, as_json: AsJson = False
 def _show(
     library: "Library", text: str | None, columns: tuple[Any, tuple[str, ...]], *flags: bool
 ) -> None:
-    """Print one entry, or the list of those that hold ``text``."""
+    """Print one entry, or the list of those with ``text`` in name or family, else in the source."""
     table, as_json = flags
     try:
-        here = Path.cwd()
-        kept = [one for one in library.entries(here).values() if (text or "").lower() in one.text]
+        here, wanted = Path.cwd(), (text or "").lower()
+        every = library.entries(here).values()
+        found = ([one for one in every if wanted in one.texts[place]] for place in range(2))
+        kept: list[Named] = next(filter(None, found), [])
         names = {word for one in kept for word in one.words}
         if table or not kept or text in names:
             _show_one(library, library.find(text or "", here), table, as_json)
@@ -99,13 +101,15 @@ def _text(one: "Named") -> str:
     names = ", ".join(one.aliases)
     lines = [f"{one.table['name']}: {one.family}{f', also {names}' if names else ''}"]
     sources = list(dict.fromkeys(source for _, _, source in one.evidence.values()))
-    for path, value in _numbers(one.table):
+    numbers = list(_numbers(one.table))
+    width = max(len(path) for path, _ in numbers)
+    for path, value in numbers:
         keys = reversed(path.split("."))
         found = (one.evidence[key] for key in keys if key in one.evidence)
         kind, span, source = next(found, ("", "", ""))
         mark = f" [{sources.index(source) + 1}]" if source else ""
         known = f"{kind}, {span}{mark}" if kind else ""
-        lines.append(f"  {path:<30}  {value:<14}  {known}".rstrip())
+        lines.append(f"  {path:<{width}}  {value:<14}  {known}".rstrip())
     lines += [f"  [{number}]  {source}" for number, source in enumerate(sources, 1) if source]
     if not sources and "source" in one.table:
         lines.append(f"  source  {one.table['source']}")
