@@ -21,8 +21,8 @@ OMEGA_BEND = 0.3
 """Frequency [-] below which the table is interpolated over it, and above over its logarithm."""
 BANDS = (1.0, 3.0)
 STIFFNESS_ERRORS, DAMPING_ERRORS = (7e-4, 1.5e-3, 1.5e-2), (2.5e-4, 1e-3, 1.5e-2)
-"""Largest differences to 11 contacts between those of the table, up to Omega = 1, 3 and 30: of k,
-and of Omega c, over k. Damping itself is then within 0.2 %, 4 % and 20 % in 95 % of all places."""
+"""Bounds of the differences to 21 contacts between those of the table, up to Omega = 1, 3 and 30:
+of k, and of Omega c, over k. Damping itself is then within 0.3 %, 4 % and 20 % in 95 % of them."""
 ROUND = 0.1
 """Largest difference of the ratio of the radii from one."""
 
