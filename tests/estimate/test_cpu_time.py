@@ -6,7 +6,9 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Options
+from tehl.estimate import cpu_time
 from tehl.estimate.cpu_time import expected_cycles, expected_seconds, seconds_range
+from tehl.estimate.machine import machine_factor
 from tehl.estimate.scaling import ScaledProblem
 from tests.cases import ball_tables, moes_problem
 from tests.reference import heated_contact, moes_contact
@@ -92,16 +94,19 @@ def test_hard_contacts_have_a_wider_range_of_time():
     assert seconds_range(slender, 2.0) == (1.0, 20.0)
 
 
-def test_thin_films_that_thin_take_longer_but_between_asperities():
-    def seconds(load: float, **tables: object) -> float:
-        contact = moes_problem(load, 8.0, radius_x=0.02, radius_y=0.2)
-        known = contact.model_dump(exclude_none=True) | tables
+def test_thin_films_and_steep_spikes_that_thin_take_longer():
+    def seconds(load: float, speed: float) -> float:
+        contact = moes_problem(load, speed, radius_x=0.02, radius_y=0.2)
+        known = contact.model_dump(exclude_none=True)
         known["lubricant"] |= {"shear": {"law": "eyring", "stress": 5e6}}
-        scaled = ScaledProblem.of(ContactProblem.model_validate(known))
-        return expected_seconds(scaled, Options())
+        return expected_seconds(ScaledProblem.of(ContactProblem.model_validate(known)), Options())
 
-    summits = {"model": "greenwood-tripp", "summit_radius": 1e-5, "summit_density": 1e10}
-    rough = {"material": {"young_modulus": 1e11, "poisson_ratio": 0.0}, "rms_roughness": 1e-7}
-    between = {"asperities": summits, "surface_1": rough, "surface_2": rough}
-    assert seconds(4100.0) > 1.8 * seconds(3900.0)
-    assert seconds(4100.0, **between) < 1.5 * seconds(3900.0, **between)
+    assert seconds(4100.0, 8.0) > 1.8 * seconds(3900.0, 8.0)
+    assert seconds(500.0, 18.0) > 4.0 * seconds(500.0, 12.0)
+
+
+def test_the_time_is_that_of_this_machine(monkeypatch):
+    assert 0.0 < machine_factor() == machine_factor()
+    before = expected_seconds(ball(), Options())
+    monkeypatch.setattr(cpu_time, "machine_factor", lambda: 3.0 * machine_factor())
+    assert expected_seconds(ball(), Options()) == pytest.approx(3.0 * before)

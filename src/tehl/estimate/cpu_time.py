@@ -5,23 +5,24 @@ from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import domain_of
 from tehl.estimate.duration import components
 from tehl.estimate.grid import Grid, can_mirror, halved_grids
+from tehl.estimate.machine import machine_factor
 from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.roughness.model import TileModel
 
-START_TIME, SURFACE_TIME = 0.011, 0.14
-"""CPU time of any solve, and of random and measured surfaces, beside the cycles [s]."""
-EACH_CYCLE, COARSEST_SYSTEM_TIME = 0.6e-3, 2.2e-11
-"""CPU time of a cycle beside its nodes, and of its dense coarsest system per cubed node [s]."""
-FIRST_STEPS = 6
-"""Newton steps on the coarsest grid before the first cycle."""
-PER_NODE, THINNING, HEATED = 0.24e-6, 0.35e-6, 0.76e-6
+START_TIME, SURFACE_TIME = 0.02, 0.14
+"""CPU time of any solve, and of random and measured surfaces, beside the cycles [s]: this and all
+others on the machine of `tehl.estimate.machine`."""
+EACH_CYCLE, COARSEST_SYSTEM_TIME, COARSEST_SYSTEMS = 1e-3, 2.2e-11, 9
+"""CPU time of a cycle beside its nodes, and of a dense coarsest system per cubed node [s], and the
+number of these in a solve."""
+PER_NODE, THINNING, HEATED = 0.4e-6, 0.8e-6, 1.4e-6
 """CPU time of a cycle per node of its finest grid [s], and what shear thinning and heat add."""
 TOUCHING_CYCLE, TOUCHING_CYCLES = 1.1e-6, 15
 """CPU time of a cycle per node where surfaces may touch [s], and the number on each grid: random
 surfaces and grooves (shares 0.1 to 0.8, 129 and 257 nodes) take 0.7 to 1.9 times the estimate,
 smooth ones 0.1 to 0.5 times. Where cycles fail, Newton's method takes ten times as long."""
-FIRST_CYCLES, CYCLES, ROUGH_CYCLES = 4, 2, 8
+FIRST_CYCLES, CYCLES, ROUGH_CYCLES = 4, 3, 8
 """Cycles on the first grid, on each finer one, and on the one where the heights are raised."""
 FRONT_FACTOR = 1.4
 """Factor where the edge of the oil must be found; the flooded contact is solved before."""
@@ -29,15 +30,14 @@ STARTING = 0.4
 """Cost of the start of a grid in cycles."""
 NODES_PER_RESOLVED_WAVE = 8.0
 """Nodes on the shortest wave from which a grid has the heights."""
-SURPLUS = 1.5
-"""Factor for the one contact in eight that takes a finer grid than planned, or a fallback, and for
-cores that other programs use too: 1.2 on a quiet machine, 1.9 with both of its cores busy."""
-FINER_GRID_FACTOR, FINER_GRID_LARGEST_M, FINER_GRID_LEAST_L = 1.6, 100.0, 5.5
-"""Factor where half of the thinning and heated contacts take a finer grid, and the largest M and
-least L where they do."""
-STEEP_FACTOR, STEEP_FROM_M, STEEP_FROM_L = 2.0, 4000.0, 20.0
-"""Factor where thinning or heated films need a fallback whose cycles are slow, and the M, without
-asperities, and the L from which most do."""
+SURPLUS = 1.1
+"""Factor for the contacts that take a finer grid than planned, or a fallback."""
+HEAVY_FACTOR, HEAVY_FROM_M = 2.0, 4000.0
+"""Factor where thinning or heated films need a fallback whose cycles are slow, and the M from which
+most do."""
+STEEP_FROM_L, STEEP_POWER, STEEPEST, LEAST_M_OF_SPIKES = 12.0, 5.0, 50.0, 2.0
+"""L from which behind a steep spike of the pressure the time of such films grows by this power, as
+grids and strategies fail; largest factor; and the M below which there is no spike."""
 SLENDER_RATIO_OF_TIME, WIDE_RATIO_OF_TIME = 0.7, 4.0
 """a_y/a_x below and above which a contact takes longer."""
 HIGH_TIME_FACTOR, HIGHER_TIME_FACTOR, HEAVY_LOAD = 3.0, 10.0, 2000.0
@@ -70,11 +70,11 @@ def seconds_range(scaled: ScaledProblem, seconds: float) -> tuple[float, float]:
 
 
 def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
-    """Return the CPU time of a solve to expect on one core of a usual machine [s].
+    """Return the CPU time of a solve to expect on one core of this machine [s].
 
-    The constants are a fit to 200 random contacts with M = 2 to 2000 and L = 0.5 to 20
-    (``python -m benchmarks.coverage``). Of others eight to nine of ten take half to twice as
-    long, of heated ones half to three of four: fallbacks, further grids and busy cores take longer.
+    The constants are a fit to 70 contacts of machines with M = 0.5 to 33,000, most of them heated
+    or thinning (``python -m benchmarks.machines``). Of 31 others 23 take half to twice as long:
+    fallbacks and further grids take longer.
 
     Parameters
     ----------
@@ -83,19 +83,23 @@ def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
     options : Options
         With ``points = "auto"`` further grids are included.
     """
+    return machine_factor() * _reference_seconds(scaled, options)
+
+
+def _reference_seconds(scaled: ScaledProblem, options: Options) -> float:
+    """Return the CPU time on the reference machine [s]."""
     (coarsest, _), *finer = expected_cycles(scaled, options)
     newton, each = COARSEST_SYSTEM_TIME * _nodes(coarsest) ** 3, _seconds_per_node(scaled.problem)
-    work = sum(
-        cycles * (EACH_CYCLE + newton) + (cycles + STARTING) * each * _nodes(grid)
-        for grid, cycles in finer
+    work = COARSEST_SYSTEMS * newton + sum(
+        cycles * EACH_CYCLE + (cycles + STARTING) * each * _nodes(grid) for grid, cycles in finer
     )
     work *= _surplus(scaled) if options.points == "auto" else 1.0
     if scaled.problem.supply is not None:
         changes = dict.fromkeys(("supply", "cavitation", "transient", "dynamics"))
         flooded = ScaledProblem.of(scaled.problem.model_copy(update=changes))
         anew = options.model_copy(update={"domain": "auto", "edges": "auto"})
-        work = FRONT_FACTOR * work + expected_seconds(flooded, anew)
-    return START_TIME + SURFACE_TIME * _sampled(scaled.problem) + FIRST_STEPS * newton + work
+        work = FRONT_FACTOR * work + _reference_seconds(flooded, anew)
+    return START_TIME + SURFACE_TIME * _sampled(scaled.problem) + work
 
 
 def expected_cycles(scaled: ScaledProblem, options: Options) -> list[tuple[Grid, int]]:
@@ -126,11 +130,12 @@ def expected_cycles(scaled: ScaledProblem, options: Options) -> list[tuple[Grid,
 def _surplus(scaled: ScaledProblem) -> float:
     """Return the factor for grids finer than planned, and for fallbacks."""
     problem, groups = scaled.problem, scaled.entering
-    is_heavy = groups.M > STEEP_FROM_M and problem.asperities is None
-    if problem.is_coupled and not problem.is_rough and (is_heavy or groups.L > STEEP_FROM_L):
-        return STEEP_FACTOR * SURPLUS
-    thick = groups.M < FINER_GRID_LARGEST_M and groups.L > FINER_GRID_LEAST_L
-    return FINER_GRID_FACTOR if problem.is_coupled and thick and not problem.is_rough else SURPLUS
+    if not problem.is_coupled or problem.is_rough:
+        return SURPLUS
+    heavy = HEAVY_FACTOR if groups.M > HEAVY_FROM_M else 1.0
+    if groups.M < LEAST_M_OF_SPIKES or groups.L < STEEP_FROM_L:
+        return SURPLUS * heavy
+    return SURPLUS * max(heavy, min((groups.L / STEEP_FROM_L) ** STEEP_POWER, STEEPEST))
 
 
 def _sampled(problem: ContactProblem) -> int:
