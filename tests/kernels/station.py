@@ -26,6 +26,8 @@ class Station:
     h: Array  # film
     px: Array  # slopes of the pressure along x, along y over kappa, and in time
     py: Array
+    climb_x: Array  # those that compress
+    climb_y: Array
     pt: Array
     capacity: Array  # rho_0 c and k of the oil over those at ambient pressure
     conductivity: Array
@@ -227,10 +229,10 @@ class Column:
 
 
 def sources(model: Model, at: Station, column: Column) -> tuple[Array, Array]:
-    """Return shear heat Br phi tau^2 and compression -Cp T rho_T/rho (u p_x + v p_y + p_t)."""
+    """Return shear heat Br phi tau^2 and compression -Cp T rho_T/rho (u.grad p + p_t)."""
     x, y = stress(model, at, model.across.zeta)
     rise = -model.terms.compression * at.t / column.rho * column.rho_t
-    work = column.u * at.px + column.v * at.py + at.pt
+    work = column.u * at.climb_x + column.v * at.climb_y + at.pt
     return model.terms.brinkman * (x**2 + y**2) * column.phi, rise * work
 
 
@@ -389,7 +391,8 @@ def sweep(model: Model, fields: Fields, surfaces: Surfaces) -> dict[str, Array]:
     for i in range(len(fields.p)):
         if terms.mirror:
             t[i + GHOSTS, :, :GHOSTS] = t[i + GHOSTS, :, 2 * GHOSTS : GHOSTS : -1]
-        given = ("p", "h", "px", "py", "capacity", "conductivity", "over_scale", "tau_x", "tau_y")
+        given = ("p", "h", "px", "py", "climb_x", "climb_y", "capacity", "conductivity")
+        given += ("over_scale", "tau_x", "tau_y")
         x, y = fields.x[i], fields.y
         at = Station(
             **{name: getattr(fields, name)[i] for name in given},

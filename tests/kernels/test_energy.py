@@ -145,7 +145,8 @@ def test_elimination_solves_the_columns(nodes: int, band: int) -> None:
 def twin_station(station: Station) -> twin.Station:
     """The same station for the equations in numpy."""
     names = {"p": "p", "h": "h", "px": "p_x", "py": "p_y", "pt": "p_t", "over_scale": "over_scale"}
-    names |= {name: name for name in ("capacity", "conductivity", "tau_x", "tau_y")}
+    same = ("climb_x", "climb_y", "capacity", "conductivity", "tau_x", "tau_y")
+    names |= {name: name for name in same}
     rows = {ours: station.line(theirs) for ours, theirs in names.items()}
     for name in ("slide", "speed"):
         rows[name] = station.line(f"{name}_x"), station.line(f"{name}_y")

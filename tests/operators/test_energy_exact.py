@@ -6,7 +6,7 @@ ones are solids that do not conduct.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ from tehl.base.typing import Array
 from tehl.contact.options import Domain
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
-from tehl.operators.energy import FilmState
+from tehl.operators.energy import FilmState, driving_slopes, pressure_slopes
 from tehl.operators.heated_film import HeatedFilm
 
 COLD = 313.0
@@ -96,6 +96,51 @@ class Layer:
         pressure = 0.5 + np.broadcast_to(slope * grid.x, grid.shape)
         state.set_film(pressure.copy(), np.full(grid.shape, film))
         return state
+
+
+def test_slopes_that_drive_the_flow_are_those_of_a_smooth_pressure_and_small_at_a_foot():
+    groups = ScaledProblem.of(Layer(walls=KEPT).problem()).groups
+    stiff = replace(groups, alpha_bar=30.0)
+    grid = Grid(nx=65, ny=ROWS, domain=DOMAIN, mirror=True)
+    smooth = np.sqrt(np.maximum(1.0 - grid.x**2 / 9.0 - grid.y[:, None] ** 2 / 9.0, 0.0))
+    for whole, driving in zip(
+        pressure_slopes(grid, stiff, smooth), driving_slopes(grid, stiff, smooth), strict=True
+    ):
+        np.testing.assert_allclose(driving, whole, rtol=0, atol=1e-5)
+    front = np.where(grid.x < 0.0, 1.0, 0.01 * np.exp(-grid.x)) + np.zeros(grid.shape)
+    foot = int(np.argmax(front[0] < 0.5))
+    whole, driving = (
+        -slopes(grid, stiff, front)[0][0, foot] * grid.dx
+        for slopes in (pressure_slopes, driving_slopes)
+    )
+    assert whole > 0.4
+    assert 0.0 < driving < 0.005
+
+
+@pytest.mark.parametrize("law", ["newtonian", "eyring"])
+def test_oil_that_thins_by_the_slope_of_the_pressure_approaches_it_by_its_flow(law):
+    shear = {"law": law} | ({"stress": 2e4} if law == "eyring" else {})
+    layer = Layer(walls=KEPT, shear=shear)
+    state = layer.state(slope=0.2)
+    pressure, film = (
+        0.5 + 0.2 * state.grid.x + np.zeros(state.grid.shape),
+        np.ones(state.grid.shape),
+    )
+    parts, mobilities = [], []
+    for _ in range(12):
+        state.set_film(pressure, film)
+        state.sweep(20)
+        parts.append(float(state.view("part")[8, 3]))
+        mobilities.append(float(state.heated().mobility[3, 8]))
+    if law == "newtonian":
+        assert parts == [1.0] * 12
+        return
+    assert parts[0] < 0.2
+    assert np.all(np.diff(parts) >= -1e-12)
+    assert parts[-1] == pytest.approx(1.0, rel=1e-12)
+    # Newton's method for the slope at a given flow, so from below
+    assert mobilities[0] < 0.2 * mobilities[-1]
+    assert mobilities[-1] == pytest.approx(mobilities[-2], rel=1e-6)
 
 
 def settled(state: FilmState, sweeps: int = 60) -> FilmState:

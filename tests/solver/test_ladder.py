@@ -9,7 +9,7 @@ from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import ScaledProblem
 from tehl.solver import steady
-from tehl.solver.cycle.ladder import ladder
+from tehl.solver.cycle.ladder import UNCOMBINED, ladder
 from tehl.solver.monitor import SILENT
 
 OPTIONS = Options(extrapolate=True)
@@ -60,3 +60,27 @@ def test_combined_cycles_are_fewer_and_give_the_same_film(
         films.append(found.film_scaled.minimum)
     assert cycles[1] <= 0.75 * cycles[0]
     assert films[1] == pytest.approx(films[0], rel=2e-3)
+
+
+def test_the_steep_front_of_a_thinning_oil_converges_without_combined_cycles(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """An outer ring, M = 480, L = 22, in nearly pure rolling."""
+    tables = {
+        "contact": {
+            "hertz_pressure": "1.5 GPa",
+            "entrainment_speed": "8 m/s",
+            "slide_roll_ratio": 0.02,
+        },
+        "surface_1": {"material": "steel", "radius": "6 mm"},
+        "surface_2": {"material": "steel", "radius_x": "-30 mm", "radius_y": "-6.3 mm"},
+        "lubricant": {
+            "viscosity": {"law": "barus", "eta_0": "64 mPa s", "alpha": "20 1/GPa"},
+            "density": {"law": "dowson-higginson", "rho_0": "880 kg/m^3"},
+            "shear": {"law": "eyring", "stress": "2.4 MPa"},
+        },
+    }
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: (UNCOMBINED,))
+    ring, options = case_from_tables(tables)[0], OPTIONS.on_points(97, 49)
+    found = steady.try_strategies(ring, options, monitor=SILENT, rough=False)[1]
+    assert found.status.converged

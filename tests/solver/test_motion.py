@@ -103,6 +103,8 @@ def mass_fluxes(result: Result) -> tuple[np.ndarray, np.ndarray]:
         h=fields.film.ravel(),
         px=slopes[0].ravel(),
         py=slopes[1].ravel(),
+        climb_x=slopes[0].ravel(),
+        climb_y=slopes[1].ravel(),
         pt=0.0 * one,
         capacity=one,
         conductivity=one,

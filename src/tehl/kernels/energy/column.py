@@ -58,7 +58,7 @@ def heat_sources(model: Model, line: Record, here: Record, k: int) -> tuple[Lane
     x, y = stress_at(terms, line, model.across.zeta[k] - 0.5)
     shear = line.sheared * terms.brinkman * (x * x + y * y) * here.fluidity
     rise = -terms.compression * here.t / here.rho * here.rho_t
-    return shear, rise * (here.u * line.p_x + here.v * line.p_y + line.p_t)
+    return shear, rise * (here.u * line.climb_x + here.v * line.climb_y + line.p_t)
 
 
 @helper

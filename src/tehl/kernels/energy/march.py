@@ -40,6 +40,8 @@ def _load_block(model: Model, fields: Fields, work: Work, place: Place) -> None:
     line.h2_over_k = h * h / conductivity
     line.p_x = fields.px[i, rows]
     line.p_y = fields.py[i, rows]
+    line.climb_x = fields.climb_x[i, rows]
+    line.climb_y = fields.climb_y[i, rows]
     line.p_t = 0.0
     if model.terms.over_t > 0.0:
         line.p_t = fields.pressing[i, rows]

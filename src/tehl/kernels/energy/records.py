@@ -24,17 +24,17 @@ LINE = np.dtype(
         (name, np.float64, (LANES,))
         for name in (
             *("p", "h", "p_x", "p_y", "p_t", "capacity", "conductivity", "h2_over_k", "over_scale"),
-            *("sheared", "tau_x", "tau_y", "thins", "excess_y", "pull"),
+            *("climb_x", "climb_y", "sheared", "tau_x", "tau_y", "thins", "excess_y", "pull"),
             *("slide_x", "slide_y", "speed_x", "speed_y"),
         )
     ]
     + [("terms", np.float64, (TERMS, LANES))]
 )
 """A block of rows: pressure, film, slopes of the pressure along x, y and in time, heat capacity and
-conductivity over those at ambient pressure, h^2/k, one over the stress scale; part of the shear
-heat; mid-film stress; whether the oil thins; largest relative excess of the tangent fluidity along
-y; sum of share times temperature; (u2 - u1)/u_m and u1/u_m at these places, both components;
-coefficients of the laws at these pressures."""
+conductivity over those at ambient pressure, h^2/k, one over the stress scale; slopes that compress;
+part of the shear heat; mid-film stress; whether the oil thins; largest relative excess of the
+tangent fluidity along y; sum of share times temperature; (u2 - u1)/u_m and u1/u_m at these places,
+both components; coefficients of the laws at these pressures."""
 LAYER = np.dtype(
     [
         (name, np.float64, (LANES,))
@@ -174,16 +174,17 @@ class Surfaces(NamedTuple):
 class Fields(NamedTuple):
     """Fields of the film.
 
-    In: places ``x`` (nx,) and ``y`` (ny,) in a_x; ``p, h, px, py`` (nx, ny), ``capacity,
-    conductivity`` ratios to those at ambient pressure, ``over_scale`` one over the stress scale,
-    ``sheared`` 1, or 0 where surfaces rub in place of the oil. In and out: ``temperature`` (nx + 4,
-    n, ny + 4), ``tau_x, tau_y`` mid-film stress (nx, ny). In, in a transient run: ``past`` (nx, n,
-    ny) contribution of former temperatures to the time derivative, ``pressing`` (nx, ny) time
-    derivative of the pressure. Out: ``mobility, density`` of the Reynolds equation,
-    ``mean_density`` across the film, ``odd_density`` (nx, ny) what sliding adds to it per slide,
-    where not all is along x, ``enthalpy_x, enthalpy_y`` fluxes, ``shear, work`` powers,
-    ``effective`` viscosity ratio, ``over_exponent`` 1/n at mid-film (`Heated`), ``stretch_x,
-    stretch_y``: mobility of a small change along x or y over ``mobility``.
+    In: places ``x`` (nx,) and ``y`` (ny,) in a_x; ``p, h`` (nx, ny); ``px, py`` slopes of the
+    pressure that drive the flow, ``part`` of their whole, ``climb_x, climb_y`` those that compress
+    the oil; ``capacity, conductivity`` ratios to those at ambient pressure, ``over_scale`` one over
+    the stress scale, ``sheared`` 1, or 0 where surfaces rub in place of the oil. In and out:
+    ``temperature`` (nx + 4, n, ny + 4), ``tau_x, tau_y`` mid-film stress (nx, ny). In, in a
+    transient run: ``past`` (nx, n, ny) contribution of former temperatures to the time derivative,
+    ``pressing`` (nx, ny) time derivative of the pressure. Out: ``mobility, density`` of the
+    Reynolds equation, ``mean_density`` across the film, ``odd_density`` (nx, ny) what sliding adds
+    to it per slide, where not all is along x, ``enthalpy_x, enthalpy_y`` fluxes, ``shear, work``
+    powers, ``effective`` viscosity ratio, ``over_exponent`` 1/n at mid-film (`Heated`),
+    ``stretch_x, stretch_y``: mobility of a small change along x or y over ``mobility``.
     """
 
     x: Array
@@ -192,6 +193,9 @@ class Fields(NamedTuple):
     h: Array
     px: Array
     py: Array
+    part: Array
+    climb_x: Array
+    climb_y: Array
     capacity: Array
     conductivity: Array
     over_scale: Array

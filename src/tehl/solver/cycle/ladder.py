@@ -130,6 +130,9 @@ TOUCHING = (
         patience=2,
     ),
 )
+UNCOMBINED = Strategy(relaxation=STEEP, damping=0.5, patience=3)
+"""Tried with a wedge of third order after the combined cycles, which overshoot at the steep fronts
+(L = 20 to 30) of films that are heated or thin."""
 THIRD_ORDER_STRATEGIES = 2
 """Strategies that are tried with a wedge of third order before one of second order."""
 COMBINED_CYCLES = 3
@@ -174,11 +177,13 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
         rungs = rungs[1:]
     # behind steep pressure spikes some contacts converge with second order only
     second = (replace(one, wedge_order=2) for one in rungs)
+    steep = (UNCOMBINED,) if problem.is_coupled else ()
     if problem.asperities is not None:
-        return (*rungs[: THIRD_ORDER_STRATEGIES + 1], *second)
+        return (*rungs[: THIRD_ORDER_STRATEGIES + 1], *steep, *second)
     third = rungs[:THIRD_ORDER_STRATEGIES]
     return (
         *(replace(one, memory=COMBINED_CYCLES) if one.damping < 1.0 else one for one in third),
+        *steep,
         *second,
     )
 

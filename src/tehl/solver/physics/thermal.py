@@ -20,8 +20,9 @@ from tehl.operators.heated_film import HeatedFilm
 from tehl.operators.transfer import injected, midpoints
 from tehl.solver.cycle.level import Level
 
-COUPLED_FROM = 64
-"""Intervals of the coarsest grid that is heated; coarser ones keep the inlet temperature."""
+COUPLED_FROM = 32
+"""Intervals of the coarsest grid that is heated; coarser ones keep the inlet temperature. Where oil
+thins it changes a steep pressure everywhere, which is cheap on few nodes."""
 RESOLVED_FILM_OVER_FLOOR = 5.0
 """Least film on a heated coarser grid, over the floor of the conductance."""
 FIRST_SWEEPS = 10
@@ -126,7 +127,7 @@ class Coupling:
                 state.update_surfaces()
             assert levels[-2].factors is not None  # that grid is heated
             shape = fine.grid.shape
-            factors = properties.Factors(*(midpoints(one, shape) for one in levels[-2].factors))
+            factors = properties.Factors(*(_refined(one, shape) for one in levels[-2].factors))
             self._set_factors(levels, factors)
             return True
         # the first heated grid starts from the inlet temperature everywhere
@@ -302,9 +303,8 @@ class Coupling:
 
     def _couple(self, state: FilmState, levels: Sequence[Level]) -> None:
         """Compute the factors of heat and thinning and set them on all of ``levels``."""
-        fine, names = levels[-1], properties.Heated._fields
+        fine, heated = levels[-1], state.heated()
         shape = fine.grid.shape
-        heated = properties.Heated(*(np.ascontiguousarray(state.view(name).T) for name in names))
         if self.carries_mean:
             heated.density[:] = state.view("mean_density").T
         heated.mobility[:] /= self.scaled.groups.lambda_bar
@@ -332,6 +332,16 @@ class Coupling:
             level.couple(factors)
         fine.update_properties()
         fine.write_source()
+
+
+def _refined(factor: Array, shape: tuple[int, ...]) -> Array:
+    """Return a factor on a grid of half the mesh width, by logarithms if it is positive.
+
+    On a steep front it changes by orders of magnitude from node to node.
+    """
+    if factor.min() > 0.0:
+        return np.asarray(np.exp(midpoints(np.log(factor), shape)))
+    return midpoints(factor, shape)
 
 
 def damped(
