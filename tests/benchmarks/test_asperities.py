@@ -16,6 +16,7 @@ def test_the_steps_of_a_dent_are_paid_without_the_beginning() -> None:
     assert row[5:] == pytest.approx((3.0 / STEPS / 0.01, 400 * 3.0 / STEPS, 1.5))
 
 
+@pytest.mark.slow
 def test_a_quick_sweep_has_one_row_of_each_kind(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(asperities, "dent", lambda *_: make_transient())
     monkeypatch.setattr(asperities, "fft_unit", lambda _: 0.01)

@@ -39,6 +39,7 @@ def test_a_light_contact_is_solved_and_judged():
     assert "followed" not in found
 
 
+@pytest.mark.slow
 def test_the_hint_of_a_contact_that_fails_is_followed():
     # the grid planned for it is followed by a finer one, for which there is no time
     found = row((7, 13, 1e-3, False, True))

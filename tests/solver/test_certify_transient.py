@@ -48,7 +48,7 @@ def certified(points: int = 129) -> TransientResult:
     return certify_transient(passing(), options(points))
 
 
-@pytest.mark.parametrize("points", [65, 129])
+@pytest.mark.parametrize("points", [65, pytest.param(129, marks=pytest.mark.slow)])
 def test_the_run_on_a_twice_finer_grid_is_within_the_bars(points):
     run, finer = certified(points), solve_transient(passing(), options(2 * points - 1))
     history = finer.history

@@ -228,7 +228,9 @@ def marched(omega, points):
     return -target * (load_sine + 1j * load_cosine) / (sine + 1j * cosine)
 
 
-@pytest.mark.parametrize(("omega", "points"), [(1.0, 97), (3.0, 129)])
+@pytest.mark.parametrize(
+    ("omega", "points"), [(1.0, 97), pytest.param(3.0, 129, marks=pytest.mark.slow)]
+)
 def test_the_march_in_time_has_the_same_response(omega, points):
     response = marched(omega, points)
     stiffness, damping = dimensionless(solve(at(moes_contact(50.0, 10.0), omega), on(points)))

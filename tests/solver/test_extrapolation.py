@@ -29,7 +29,9 @@ def test_an_error_of_second_order_vanishes_and_zeros_remain():
 
 
 @pytest.mark.parametrize("order", [2, 3])
-@pytest.mark.parametrize("case", [moes_contact(200.0, 10.0), heated_contact(0.5)])
+@pytest.mark.parametrize(
+    "case", [moes_contact(200.0, 10.0), pytest.param(heated_contact(0.5), marks=pytest.mark.slow)]
+)
 def test_an_eighth_of_the_nodes_gives_the_film_of_a_fine_grid(case, order):
     higher = Options(points=193, extrapolate=True, wedge_order=order)
     coarse, plain = (solve(case, one) for one in (higher, Options(points=193)))
