@@ -96,7 +96,7 @@ def _by_grids(
 
 def _expected_bar(hierarchy: Hierarchy, level: Level) -> float:
     """Return the error bar to expect with a wedge of third order; zero where there is no fit."""
-    if hierarchy.options.order < 3 or level.grid.ny == 1:
+    if hierarchy.options.order < 3 or hierarchy.scaled.groups.shape.as_line:
         return 0.0
     return third_order_bar(hierarchy.scaled, level.grid.domain, level.grid.nx)
 
