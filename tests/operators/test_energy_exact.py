@@ -117,32 +117,6 @@ def test_slopes_that_drive_the_flow_are_those_of_a_smooth_pressure_and_small_at_
     assert 0.0 < driving < 0.005
 
 
-@pytest.mark.parametrize("law", ["newtonian", "eyring"])
-def test_oil_that_thins_by_the_slope_of_the_pressure_approaches_it_by_its_flow(law):
-    shear = {"law": law} | ({"stress": 2e4} if law == "eyring" else {})
-    layer = Layer(walls=KEPT, shear=shear)
-    state = layer.state(slope=0.2)
-    pressure, film = (
-        0.5 + 0.2 * state.grid.x + np.zeros(state.grid.shape),
-        np.ones(state.grid.shape),
-    )
-    parts, mobilities = [], []
-    for _ in range(12):
-        state.set_film(pressure, film)
-        state.sweep(20)
-        parts.append(float(state.view("part")[8, 3]))
-        mobilities.append(float(state.heated().mobility[3, 8]))
-    if law == "newtonian":
-        assert parts == [1.0] * 12
-        return
-    assert parts[0] < 0.2
-    assert np.all(np.diff(parts) >= -1e-12)
-    assert parts[-1] == pytest.approx(1.0, rel=1e-12)
-    # Newton's method for the slope at a given flow, so from below
-    assert mobilities[0] < 0.2 * mobilities[-1]
-    assert mobilities[-1] == pytest.approx(mobilities[-2], rel=1e-6)
-
-
 def settled(state: FilmState, sweeps: int = 60) -> FilmState:
     """Sweep until the temperature no longer changes."""
     for _ in range(sweeps):

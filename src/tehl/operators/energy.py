@@ -11,7 +11,6 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 from tehl.kernels.energy.march import sweep
 from tehl.kernels.energy.records import GHOSTS, Fields, Surfaces, Terms, scratch
-from tehl.kernels.properties import Heated
 from tehl.operators.heated_film import HeatedFilm, padded_rows, places_across, stress_unit
 from tehl.operators.surfaces import Solids
 from tehl.operators.trail import Trail, VaryingTrail
@@ -24,12 +23,7 @@ MIXED = 20.0
 """Peclet number of the film times H^2 above which the conductivity is increased: far out in the
 inlet the nodes across the film cannot resolve the layers at the walls. Values from 5 to infinity
 change the film by 2e-5 and the mid-film rise by 0.0015 K (0.5 and 0.8 GPa, SRR 0 and 0.5)."""
-FIRST_PART = 0.1
-"""Part of the slope of the pressure for which the first sweep evaluates an oil that may thin. A
-steep film without thinning has slopes at which an Eyring oil flows by orders of magnitude more."""
-REFINED = ("tau_x", "tau_y", "px", "py", "stretch_x", "stretch_y")
-"""Fields that a finer grid starts from."""
-STEEP = 2.0
+STEEP = 8.0
 """Second difference of the pressure, in steps that thicken the oil by e, from which a front is
 steep."""
 STIFFER, FLOWING = 2.0, 10.0
@@ -133,9 +127,7 @@ class FilmState:
             climb_x, climb_y = along * climb_x, across * climb_y
             slope_x, slope_y = along * slope_x, across * slope_y
         fields.climb_x[:, rows], fields.climb_y[:, rows] = climb_x.T, climb_y.T
-        part = self._part(np.hypot(slope_x, slope_y).T)
-        fields.part[:, rows] = part
-        fields.px[:, rows], fields.py[:, rows] = part * slope_x.T, part * slope_y.T
+        fields.px[:, rows], fields.py[:, rows] = slope_x.T, slope_y.T
         lubricant, si = self.film.scaled.problem.lubricant, scales.hertz_pressure * fields.p
         fields.over_scale[:] = stress_unit(scales) / lubricant.shear.stress_scale(si)
         if self.model.terms.heat:
@@ -146,41 +138,6 @@ class FilmState:
             fields.capacity[:] = lubricant.heat_capacity_at(si) / ambient
         if self.transient is not None:
             self.transient.set_pressure()
-
-    def _part(self, slope: Array) -> Array:
-        """Return the part of ``slope``, (nx, ny), for which the oil is evaluated; 1 when converged.
-
-        An oil that thins by the slope, n = dln(flow)/dln(slope), flows as its slope to the power n,
-        and in a film it is the flow that is given. So the slope g grows with the flow q along the
-        tangent of the last sweep at g_0: g = g_0 (q/q_0)^(1/n), q/q_0 = 1 + n (g/g_0 - 1).
-        """
-        laws = self.model.laws
-        if laws.newtonian or laws.uniform or self.transient is not None:
-            return np.ones_like(slope)
-        last, exponent = np.hypot(self.view("px"), self.view("py")), self._exponent()
-        if not exponent.any():
-            return np.full_like(slope, FIRST_PART)
-        grows = (slope > last) & (last > 0.0) & (exponent > 1.0)
-        n, start = np.where(grows, exponent, 1.0), np.where(grows, last, 1.0)
-        flow = 1.0 + n * (np.where(grows, slope, 1.0) / start - 1.0)
-        return np.where(grows, start * flow ** (1.0 / n) / np.where(grows, slope, 1.0), 1.0)
-
-    def _exponent(self) -> Array:
-        """Return n = dln(flow)/dln(slope of the pressure) of the last sweep, zero before it."""
-        return np.maximum(self.view("stretch_x"), self.view("stretch_y"))
-
-    def heated(self) -> Heated:
-        """Return the properties of the flow for the Reynolds equation, each of ``grid.shape``.
-
-        Where the oil was evaluated for a part of the slope, they follow the tangent from there.
-        """
-        found = Heated(*(np.ascontiguousarray(self.view(name).T) for name in Heated._fields))
-        part, exponent = self.view("part").T, self._exponent().T
-        grown = part + exponent * (1.0 - part)
-        found.mobility[:] *= grown
-        found.stretch_x[:] /= grown
-        found.stretch_y[:] /= grown
-        return found
 
     def rub(self, stress: Array, sheared: Array | None = None) -> None:
         """Heat the surfaces by solids that rub.
@@ -235,7 +192,7 @@ class FilmState:
         """Take temperature and stress of a coarser grid by linear interpolation."""
         self.is_first_grid = False
         self.temperature[:] = midpoints(coarse.temperature, self.temperature.shape)
-        for name in REFINED:
+        for name in ("tau_x", "tau_y"):
             mine = self.view(name)
             mine[:] = midpoints(coarse.view(name), mine.shape)
         for mine, theirs in zip(self.fluxes, coarse.fluxes, strict=True):

@@ -20,9 +20,8 @@ from tehl.operators.heated_film import HeatedFilm
 from tehl.operators.transfer import injected, midpoints
 from tehl.solver.cycle.level import Level
 
-COUPLED_FROM = 32
-"""Intervals of the coarsest grid that is heated; coarser ones keep the inlet temperature. Where oil
-thins it changes a steep pressure everywhere, which is cheap on few nodes."""
+COUPLED_FROM = 64
+"""Intervals of the coarsest grid that is heated; coarser ones keep the inlet temperature."""
 RESOLVED_FILM_OVER_FLOOR = 5.0
 """Least film on a heated coarser grid, over the floor of the conductance."""
 FIRST_SWEEPS = 10
@@ -303,8 +302,9 @@ class Coupling:
 
     def _couple(self, state: FilmState, levels: Sequence[Level]) -> None:
         """Compute the factors of heat and thinning and set them on all of ``levels``."""
-        fine, heated = levels[-1], state.heated()
+        fine, names = levels[-1], properties.Heated._fields
         shape = fine.grid.shape
+        heated = properties.Heated(*(np.ascontiguousarray(state.view(name).T) for name in names))
         if self.carries_mean:
             heated.density[:] = state.view("mean_density").T
         heated.mobility[:] /= self.scaled.groups.lambda_bar
