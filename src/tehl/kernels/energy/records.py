@@ -175,9 +175,9 @@ class Fields(NamedTuple):
     """Fields of the film.
 
     In: places ``x`` (nx,) and ``y`` (ny,) in a_x; ``p, h`` (nx, ny); ``px, py`` slopes of the
-    pressure that drive the flow, ``climb_x, climb_y`` those that compress
-    the oil; ``capacity, conductivity`` ratios to those at ambient pressure, ``over_scale`` one over
-    the stress scale, ``sheared`` 1, or 0 where surfaces rub in place of the oil. In and out:
+    pressure that drive the flow, ``climb_x, climb_y`` those that compress the oil; ``capacity,
+    conductivity`` ratios to those at ambient pressure, ``over_scale`` one over the stress scale,
+    ``sheared`` 1, or 0 where surfaces rub in place of the oil. In and out:
     ``temperature`` (nx + 4, n, ny + 4), ``tau_x, tau_y`` mid-film stress (nx, ny). In, in a
     transient run: ``past`` (nx, n, ny) contribution of former temperatures to the time derivative,
     ``pressing`` (nx, ny) time derivative of the pressure. Out: ``mobility, density`` of the
