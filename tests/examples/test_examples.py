@@ -254,6 +254,7 @@ def test_a_bearing_list_has_its_films():
     assert inner["± central film [nm]"] < 0.02 * inner["central film [nm]"]
 
 
+@pytest.mark.slow
 def test_the_oil_of_a_test_is_found_within_its_intervals():
     found = example("oil_from_a_test").main()
     alpha, stress = found["alpha"], found["eyring_stress"]

@@ -283,6 +283,7 @@ def test_opaque_pairs_have_no_interferograms(result):
 
 
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="needs chromium")
+@pytest.mark.slow
 def test_the_fullest_report_prints_on_six_pages(thermal, tmp_path):
     rough = make_rough(thermal.scaled.x.size)
     glass = replace(thermal, heights=rough.heights, problem=rough.problem)

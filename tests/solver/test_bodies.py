@@ -115,6 +115,7 @@ def test_the_temperatures_are_stored_printed_and_reported(balanced, tmp_path, mo
     assert "body 1: 5 K/W   body 2: 20 K/W" in repr(explain(again.problem))
 
 
+@pytest.mark.slow
 def test_certified_films_balance_on_each_grid():
     monitor = Messages()
     found = certify(warmed(5.0), Options(points=129), monitor=monitor)

@@ -191,7 +191,8 @@ def test_a_spike_narrower_than_the_mesh_is_stated(load, speed, resolved):
     found = solve(problem, Options())
     finer = solve(problem, Options(points=4 * found.scaled.x.size - 3)).scaled.pressure.max()
     change = finer / found.scaled.pressure.max() - 1.0
-    assert found.errors.spike_resolved == resolved == (abs(change) <= found.errors.pressure_max)
+    assert found.errors.spike_resolved == resolved == (found.errors.pressure_max < 0.02)
+    assert abs(change) <= found.errors.pressure_max
 
 
 def test_an_isothermal_film_in_pure_rolling_has_neither_traction_nor_temperature_bars():

@@ -96,7 +96,11 @@ def cylinder(centre: float, oil: float, nodes: int, upstream: float) -> tuple[fl
     return float(p[0].sum() * dx), x[first] - dx * ahead
 
 
-@pytest.mark.parametrize("row", CYLINDERS, ids=lambda row: f"r={row['ratio']}")
+@pytest.mark.parametrize(
+    "row",
+    [pytest.param(CYLINDERS[0], marks=pytest.mark.slow), *CYLINDERS[1:]],  # on 3201 nodes
+    ids=lambda row: f"r={row['ratio']}",
+)
 def test_a_starved_rigid_cylinder_has_its_exact_load_and_meniscus(row):
     oil, upstream = row["ratio"] * FLOODED_FILM, row["meniscus"] + 0.737
     nodes = (401, 1601) if row["ratio"] > 0.1 else (801, 3201)
@@ -156,7 +160,7 @@ def test_oil_that_thins_in_shear_is_conserved_through_every_section():
     tables = ball_tables(supply={"layer": "0.4 um"})
     tables["contact"] |= {"load": "100 N", "entrainment_speed": "2 m/s", "slide_roll_ratio": 1.5}
     tables["lubricant"] |= {"shear": {"law": "eyring", "stress": "5 MPa"}}
-    found = solve(case_from_tables(tables)[0], Options(points=129, accuracy="tight"))
+    found = solve(case_from_tables(tables)[0], Options(points=97, accuracy="tight"))
     assert found.shear.thinning.min() < 0.1
     assert found.supplied.balance < 1e-6
 

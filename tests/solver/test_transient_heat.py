@@ -54,7 +54,10 @@ def breathing(slide: float) -> ContactProblem:
     return hot(2.5, slide, surface_1={"material": "glass"}, transient=transient)
 
 
-@pytest.mark.parametrize("slide", [0.5, -0.5], ids=["slower", "faster"])
+@pytest.mark.parametrize(
+    "slide",
+    [pytest.param(0.5, marks=pytest.mark.slow, id="slower"), pytest.param(-0.5, id="faster")],
+)
 def test_the_heated_film_conserves_mass(slide):
     """On the line y = 0 in the contact, by central differences, which the solver does not use.
 

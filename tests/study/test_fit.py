@@ -246,6 +246,7 @@ def films(tmp_path, speeds=SPEEDS):
     return pd.DataFrame(rows)
 
 
+@pytest.mark.slow
 def test_alpha_and_viscosity_by_speeds_alone_are_one_combination(tmp_path, case):
     found = tehl.fit(films(tmp_path, SPEEDS[1:]), case, ["alpha", "lubricant.viscosity.nu_40"])
     assert abs(found.correlation[0, 1]) > 0.99

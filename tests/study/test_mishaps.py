@@ -147,11 +147,11 @@ def finished(folder: Path) -> int:
 @pytest.mark.parametrize(
     ("how", "forked"),
     [
-        (signal.SIGKILL, ""),
         (signal.SIGKILL, "forked"),
-        (signal.SIGTERM, "forked"),
         (signal.SIGINT, ""),
-        (signal.SIGINT, "forked"),
+        pytest.param(signal.SIGKILL, "", marks=pytest.mark.slow),
+        pytest.param(signal.SIGTERM, "forked", marks=pytest.mark.slow),
+        pytest.param(signal.SIGINT, "forked", marks=pytest.mark.slow),
     ],
 )
 def test_a_killed_program_continues_where_it_stopped(tmp_path, undisturbed, how, forked):
@@ -184,7 +184,9 @@ axes = [{ path = "contact.load", linspace = [20, 40, 600] }]
 """
 
 
-@pytest.mark.parametrize("wait", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize(
+    "wait", [0.3, *(pytest.param(one, marks=pytest.mark.slow) for one in (0.0, 1.0))]
+)
 def test_ctrl_c_while_workers_start_is_one_line(tmp_path, wait):
     (tmp_path / "s.toml").write_text(STUDY)
     command = [sys.executable, "-m", "tehl", "study", "s.toml", "-o", "out", "--jobs", "2"]
@@ -247,6 +249,7 @@ def test_incomplete_files_of_killed_workers_are_removed(tmp_path, monkeypatch):
     assert other.exists()
 
 
+@pytest.mark.slow
 def test_a_script_without_a_guard_gets_a_hint(tmp_path):
     script = tmp_path / "bare.py"
     script.write_text(

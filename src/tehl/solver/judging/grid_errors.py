@@ -127,9 +127,10 @@ def error_estimate(  # noqa: PLR0913 (one estimate)
         combined = {key: max(bar, LEAST_COMBINED * least) for key, bar in combined.items()}
         estimate = replace(estimate, extrapolated=True, **combined)
     found = further_errors(traces, ROUGH_PART if rough else 1.0, domain)
-    resolved = _resolves_spike(traces, found)
-    if newtonian and not resolved:  # the stress at the spike grows with its viscosity
-        for name in STRESSES:
+    resolved, reach = _spike_reach(traces, found)
+    if not resolved:
+        found["pressure_max"] = max(found["pressure_max"], reach)
+        for name in STRESSES if newtonian else ():  # the stress grows with the viscosity there
             found.pop(name, None)
     _limit_bars(found, traces, estimate.central, resolved=resolved)
     if "rolling" in found:
@@ -250,23 +251,24 @@ def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> 
     return found
 
 
-def _resolves_spike(traces: list[GridTrace], errors: Mapping[str, float]) -> bool:
-    """Return whether the largest pressure stays so on finer grids, but for its error bar.
+def _spike_reach(traces: list[GridTrace], errors: Mapping[str, float]) -> tuple[bool, float]:
+    """Return whether the largest pressure is known within its bar, and how the spike may exceed it.
 
-    The excess of the pressure spike over Hertz may grow by as much on each finer grid (M = 75,
-    L = 11: 0.17, 0.25, 0.34, 0.45, 0.55 on 65 to 1025 nodes), until the spike is the largest
-    pressure, which then grows in the same way.
+    That is the part by which the spike may be above the largest pressure on finer grids. The excess
+    of the spike over Hertz may grow by as much on each finer grid (M = 75, L = 11: 0.17, 0.25,
+    0.34, 0.45, 0.55 on 65 to 1025 nodes), until the spike is the largest pressure, which then grows
+    in the same way.
     """
     known, excess = [one.measured for one in traces if one.measured][-3:], _excess(traces)
     if len(known) < 2:
-        return True
+        return True, 0.0
     largest = [one["pressure_max"] for one in known]
     change = largest[-1] - largest[-2]
-    if change > LARGE_GROWTH * largest[-1] and not _slows(largest, SECOND_ORDER):
-        return False
     growth = max(excess[-1] - excess[-2], 0.0)
     further = (SPIKE_GROWTH if _slows(excess) else UNRESOLVED_GROWTH) * growth
-    return known[-1]["spike"] + further <= (1.0 + errors.get("pressure_max", 0.0)) * largest[-1]
+    reach = (known[-1]["spike"] + further) / largest[-1] - 1.0
+    grows = change > LARGE_GROWTH * largest[-1] and not _slows(largest, SECOND_ORDER)
+    return not grows and reach <= errors.get("pressure_max", 0.0), reach
 
 
 def _is_hottest_inside(trace: GridTrace) -> bool:
