@@ -229,7 +229,12 @@ def marched(omega, points):
 
 
 @pytest.mark.parametrize(
-    ("omega", "points"), [(1.0, 97), pytest.param(3.0, 129, marks=pytest.mark.slow)]
+    ("omega", "points"),
+    [
+        pytest.param(0.3, 97, marks=pytest.mark.slow),
+        (1.0, 97),
+        pytest.param(3.0, 129, marks=pytest.mark.slow),
+    ],
 )
 def test_the_march_in_time_has_the_same_response(omega, points):
     response = marched(omega, points)

@@ -12,7 +12,7 @@ from tehl.base.errors import InputError
 from tehl.contact.boundary_contact import ContactFilm
 from tehl.contact.stress import Stress
 from tehl.io.export import export
-from tehl.post.stress.below import stress_below
+from tehl.post.stress.below import March, stress_below
 from tehl.post.stress.loads import loads_on
 from tehl.post.stress.moving import frame_loads, moving_stress
 from tehl.post.stress.numbers import stress_numbers
@@ -110,6 +110,18 @@ def test_the_film_pulls_both_bodies_in_opposite_directions(dry):
     assert first.shear_x == pytest.approx(-second.shear_x)
     assert first.shear_x < 0 < second.shear_x  # behind it, the body is compressed along x
     assert first.life_ratio < 1.0
+
+
+def test_bodies_that_only_roll_are_computed_once_and_each_has_its_stress(dry, monkeypatch):
+    seen = []
+    through = March.through
+    monkeypatch.setattr(March, "through", lambda *args: seen.append(len(args[1])) or through(*args))
+    both = stressed(with_traction(dry, 0.0)).stress
+    assert seen == [2, 2]  # one body and the dry contact, on both grids
+    second = stressed(with_traction(dry, 0.0), body=2).stress
+    for name in ("shear", "zx", "floor", "dang_van", "shear_coarse"):
+        np.testing.assert_array_equal(getattr(both, name)[1], getattr(second, name)[0])
+        np.testing.assert_array_equal(getattr(both, name)[0], getattr(both, name)[1])
 
 
 def test_a_traction_that_no_oil_can_carry_is_left_out_and_said(dry):

@@ -81,6 +81,8 @@ def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress
         Case(_beside(cut(one, window), sides), poisson_ratio(result, body), heat)
         for one, body, heat in zip(loads, settings.bodies, heats, strict=True)
     ]
+    traction = np.array([one.loads.traction_x.sum() / one.loads.pressure.sum() for one in cases])
+    cases, same = _distinct(cases)
     dry_load = _beside(_dry(result, window), sides)
     dry = [Case(dry_load, nu) for nu in dict.fromkeys(one.poisson_ratio for one in cases)]
     which = [[one.poisson_ratio for one in dry].index(case.poisson_ratio) for case in cases]
@@ -92,31 +94,33 @@ def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress
     fine = march.through([*cases, *dry], grid, len(cases))
     coarse = march.through([_coarser(one) for one in (*cases, *dry)], grid.coarser).found
     n = len(cases)
-    dry_part, found = fine.found[n:][which], fine.found[:n]
-    level = [int(np.argmax(one)) for one in _column(found, "shear")]
-    floors = [march.at(case, grid, k) for case, k in zip(cases, level, strict=True)]
+    level = [int(np.argmax(one)) for one in _column(fine.found[:n], "shear")]
+    floors = [march.shear_at(case, grid, k) for case, k in zip(cases, level, strict=True)]
+    found, coarse_found = fine.found[:n][same], coarse[:n][same]
+    dry_part, coarse_dry = fine.found[n:][which][same], coarse[n:][which][same]
+    along = fine.along[same]
     return BodyStress(
         body=np.array(settings.bodies, float),
         depth=depths,
         x=x,
         y=y,
-        **{name: fine.along[:, k] for k, name in enumerate(COMPONENTS)},
-        across=fine.across,
-        floor=np.array([largest_shear(one) for one in floors]),
-        floor_depth=depths[level],
+        **{name: along[:, k] for k, name in enumerate(COMPONENTS)},
+        across=fine.across[same],
+        floor=np.array(floors)[same],
+        floor_depth=depths[level][same],
         shear=_column(found, "shear"),
         shear_x=x[_column(found, "column").astype(int)],
         shear_y=y[_column(found, "row").astype(int)],
         von_mises=_column(found, "von_mises"),
         orthogonal=_column(found, "orthogonal"),
         dang_van=_column(found, "dang_van"),
-        shear_coarse=_column(coarse[:n], "shear"),
+        shear_coarse=_column(coarse_found, "shear"),
         shear_dry=_column(dry_part, "shear"),
         orthogonal_dry=_column(dry_part, "orthogonal"),
         dang_van_dry=_column(dry_part, "dang_van"),
         life=march.life(found, dry_part),
-        life_coarse=march.life(coarse[:n], coarse[n:][which]),
-        traction=np.array([one.loads.traction_x.sum() / one.loads.pressure.sum() for one in cases]),
+        life_coarse=march.life(coarse_found, coarse_dry),
+        traction=traction,
         left_out=np.array(float(without_shear)),
         thermal=np.array([0.0 if one is None else surface_stress(one) for one in heats]),
     )
@@ -188,8 +192,8 @@ class March:
         across = largest_shear(np.moveaxis(across, 1, 0)) * self.scale
         return Marched(found, along * self.scale, across)
 
-    def at(self, case: Case, grid: Grid, level: int) -> Array:
-        """Return the components at one of the depths, (6, ny, nx) [Pa].
+    def shear_at(self, case: Case, grid: Grid, level: int) -> Array:
+        """Return the largest shear stress at one of the depths, (ny, nx) [Pa].
 
         Parameters
         ----------
@@ -198,11 +202,14 @@ class March:
         level : int
             Which depth.
         """
-        space = HalfSpace(case.loads.pressure.shape, grid.spacing, single=True)
-        influence = space.influence(float(self.depths[level]))
         heat = None if case.heat is None else thermal_stress_of(case.heat)
-        body = self._body(case, _with_heat(case.loads, heat), heat, space)
-        return self._stress(body, space, influence, grid, level) * self.scale
+        loads = _with_heat(case.loads, heat)
+        shape, mirror = case.loads.pressure.shape, _symmetric(loads, grid.row)
+        space = HalfSpace(shape, grid.spacing, single=True, row=grid.row, mirror=mirror)
+        influence = space.influence(float(self.depths[level]))
+        body = self._body(case, loads, heat, space)
+        shear = largest_shear(self._stress(body, space, influence, grid, level)) * self.scale
+        return np.concatenate([shear[:0:-1], shear]) if mirror else shear
 
     def _body(
         self,
@@ -253,6 +260,27 @@ class March:
         known = (risk > 0.0) & (least > 0.0)
         ratio = np.divide(least, risk, out=np.zeros_like(risk), where=known)
         return np.asarray(ratio ** (1.0 / self.settings.weibull_slope))
+
+
+def _distinct(cases: Sequence[Case]) -> tuple[list[Case], list[int]]:
+    """Return the cases without repetitions, and which of them each one is.
+
+    Two bodies of one material that roll without sliding and heat are one case.
+    """
+    found: list[Case] = []
+    same = []
+    for case in cases:
+        equal = [k for k, one in enumerate(found) if _are_equal(case, one)]
+        same.append(equal[0] if equal else len(found))
+        if not equal:
+            found.append(case)
+    return found, same
+
+
+def _are_equal(one: Case, other: Case) -> bool:
+    if one.heat is not None or other.heat is not None or one.poisson_ratio != other.poisson_ratio:
+        return False
+    return all(np.array_equal(a, b) for a, b in zip(one.loads, other.loads, strict=True))
 
 
 def poisson_ratio(result: Solution, body: int) -> float:
