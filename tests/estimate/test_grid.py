@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tehl.contact.options import Domain
-from tehl.estimate.grid import Grid, can_mirror, halved_grids
+from tehl.estimate.grid import LEAST_LINES, Grid, can_mirror, coarsest_of, halved_grids
 from tests.reference import DOMAIN
 
 COARSENABLE = st.builds(lambda n, k: n * 2**k + 1, st.integers(16, 31), st.integers(1, 4))
@@ -68,3 +68,10 @@ def test_only_a_symmetric_domain_is_mirrored():
 def test_the_coarsest_grid_has_sixteen_to_thirty_one_intervals():
     assert [g.nx for g in halved_grids(grid(513, 513))] == [17, 33, 65, 129, 257, 513]
     assert halved_grids(grid(49 * 4 - 3, 193))[0].nx == 25
+
+
+@pytest.mark.parametrize(("nx", "coarsest"), [(193, (25, 25)), (257, (17, 33)), (321, (21, 41))])
+def test_long_cells_are_halved_to_a_matrix_of_a_few_hundred_nodes(nx, coarsest):
+    found = coarsest_of(grid(nx, nx // 2 + 1), 1.0)
+    assert found.points == coarsest
+    assert found.shape[0] > LEAST_LINES

@@ -10,6 +10,7 @@ from tehl.solver.judging.convergence import (
     LEAST_CYCLES,
     GridTrace,
     film_converged,
+    recedes,
 )
 from tehl.solver.judging.grid_errors import (
     LEAST_CENTRAL,
@@ -137,3 +138,26 @@ def test_cycles_whose_residual_hardly_falls_go_on(ratio: float, cycles: int, end
             )
         )
     assert film_converged(fine, coarse) is ends
+
+
+@pytest.mark.parametrize(
+    ("residuals", "found"),
+    [
+        ((1e-4, 5e-5, 7e-5, 1e-4), True),
+        ((6e-6, 2e-6, 4e-6, 1e-6, 3e-6), False),
+        ((1.0, 2.0), False),
+    ],
+)
+def test_cycles_recede_where_the_residual_grows_twice_in_succession(
+    residuals: tuple[float, ...], found: bool
+) -> None:
+    trace = GridTrace()
+    for number, residual in enumerate(residuals, 1):
+        trace.add(report(number, residual))
+    assert recedes(trace) is found
+
+
+def report(cycle: int, residual: float) -> CycleReport:
+    """Return the report of a cycle, with nothing but a residual."""
+    zeros = dict.fromkeys(("change", "load_error", "film_central", "film_minimum"), 0.0)
+    return CycleReport(points=(33, 33), cycle=cycle, residual=residual, smoother="fast", **zeros)

@@ -3,6 +3,7 @@
 import math
 import tomllib
 from itertools import pairwise
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -11,7 +12,12 @@ from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import ConvergenceError
 from tehl.api.solvers import solve, solve_transient
 from tehl.contact.options import Domain, Options
+from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.settled import settled
 from tehl.io.templates import template_text
+from tehl.result.bars import ErrorEstimate
+from tehl.solver.judging.goal import MOST_SPARE, SPARE_PART, Goal
+from tehl.solver.steady import finest_grid
 from tests.reference import heated_contact, moes_contact
 from tests.solver.rough import wavy
 
@@ -244,3 +250,33 @@ def test_a_transient_run_finds_its_grid_and_resolves_what_moves_in():
     assert run.start.errors.central <= 0.02
     width = (run.start.x[1] - run.start.x[0]) * 1e6
     assert 4.0 * 50.0 / width > 12.0  # four radii of the dent
+
+
+def errors(central: float, minimum: float, iteration: float = 1e-4) -> ErrorEstimate:
+    return ErrorEstimate(
+        discretisation_central=central,
+        discretisation_minimum=minimum,
+        iteration_central=iteration,
+        iteration_minimum=iteration,
+        domain=1e-3,
+    )
+
+
+@pytest.mark.parametrize(
+    ("minimum", "spare"),
+    [(0.001, MOST_SPARE * 0.01), (0.007, SPARE_PART * 0.002), (0.012, -0.0015)],
+)
+def test_the_iteration_may_keep_what_the_other_errors_leave(minimum: float, spare: float) -> None:
+    goal = Goal(ScaledProblem.of(moes_contact(400.0, 1.0)), Options(error=0.01))
+    assert goal.spare(errors(0.001, minimum)) == pytest.approx(spare)
+    assert goal.spare(None) == 0.0
+
+
+@pytest.mark.parametrize(("minimum", "more"), [(0.025, True), (0.014, False)])
+def test_a_minimum_as_accurate_as_the_central_film_gets_no_more_lines_alone(
+    minimum: float, more: bool
+) -> None:
+    scaled = ScaledProblem.of(moes_contact(400.0, 1.0))
+    options = settled(scaled.problem, Options())
+    level = Mock(grid=finest_grid(scaled, options.on_points(97, 97)))
+    assert Goal(scaled, options).wants_lines(level, errors(0.008, minimum)) is more

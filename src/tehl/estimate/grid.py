@@ -11,7 +11,9 @@ LONG_STRETCH = 5.0
 """Length of a cell along y over that along x beyond which columns are halved before lines: an error
 that changes from line to line is smooth along x there, and a grid with fewer lines lacks it."""
 LEAST_INTERVALS = 16
-"""Fewest intervals of a coarsest grid; with long cells, of the stored lines."""
+"""Fewest intervals of a coarsest grid."""
+LEAST_LINES = 12
+"""Fewest stored intervals across a coarsest grid with long cells."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -144,7 +146,7 @@ def coarsest_of(finest: Grid, widest: float) -> Grid:
     grid = finest
     while (half := halved(grid, (1, 0))) and (half.dx <= widest or grid is finest):
         grid = half
-    while (half := halved(grid, (0, 1))) and half.shape[0] > LEAST_INTERVALS:
+    while (half := halved(grid, (0, 1))) and half.shape[0] > LEAST_LINES:
         grid = half
     return grid
 

@@ -31,35 +31,33 @@ def flow_table(scaled: ScaledProblem) -> FlowTable:
         return density(pressure) / (si / scales.viscosity * scaled.groups.lambda_bar)
 
     step = LARGEST_PRESSURE / NODES
-    pressure = step * np.arange(NODES + 1.0)
+    pressure = step * np.arange(NODES + 3.0)
 
     def tabulated(law: Callable[[Array], Array]) -> Array:
-        return np.stack([law(pressure), slope(law, pressure, step) * step], axis=1)
+        values = law(pressure)
+        return np.stack([values, increments(values)], axis=1)[:-2]
 
     return FlowTable(mobility=tabulated(mobility), density=tabulated(density), step=step)
 
 
-def slope(law: Callable[[Array], Array], pressure: Array, step: float) -> Array:
-    """Differentiate ``law`` to fourth order by differences, one-sided at p = 0.
+def increments(values: Array) -> Array:
+    """Return the derivative of values times their spacing, of fourth order, one-sided at the ends.
+
+    The last two are zero.
 
     Parameters
     ----------
-    law : callable
-        From pressures [-] to values of the same shape.
-    pressure : (n,) array
-        Increasing from zero [-].
-    step : float
-        Ten times the width of the differences [-].
+    values : (n,) array
+        At equal distances.
 
     Returns
     -------
     (n,) array
-        Derivative of ``law`` at ``pressure``.
+        Change per distance.
     """
-    d = 0.1 * step
-    # central: (8 (f_1 - f_-1) - (f_2 - f_-2)) / (12 d)
-    central = 8 * (law(pressure[1:] + d) - law(pressure[1:] - d))
-    central -= law(pressure[1:] + 2 * d) - law(pressure[1:] - 2 * d)
-    weights = np.array([-25.0, 48.0, -36.0, 16.0, -3.0])
-    first = weights @ law(d * np.arange(5.0))
-    return np.concatenate([[first], central]) / (12 * d)
+    found = np.zeros_like(values)
+    # central: (8 (f_1 - f_-1) - (f_2 - f_-2)) / 12
+    found[2:-2] = (8.0 * (values[3:-1] - values[1:-3]) - (values[4:] - values[:-4])) / 12.0
+    found[0] = np.array([-25.0, 48.0, -36.0, 16.0, -3.0]) @ values[:5] / 12.0
+    found[1] = np.array([-3.0, -10.0, 18.0, -6.0, 1.0]) @ values[:5] / 12.0
+    return found

@@ -5,11 +5,9 @@ coarser one has no acceptable solution, and whether a finer one follows.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from tehl.estimate.scaling import Groups
 from tehl.operators.heights import Heights, heights_of
-from tehl.result.bars import ErrorEstimate
 from tehl.result.solution import Solution
 from tehl.solver.cycle.continuation import RAISED_RESIDUAL, TouchingError
 from tehl.solver.cycle.fmg import full_multigrid
@@ -19,7 +17,6 @@ from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.methods import MOST_CYCLES, solve_coarsest
 from tehl.solver.cycle.start import from_coarser, from_dry_pressure, from_guess
-from tehl.solver.judging.balance import LARGEST_OIL_ERROR
 from tehl.solver.judging.convergence import (
     LARGEST_CYCLE_CHANGE,
     DivergedError,
@@ -128,15 +125,6 @@ class FilmSolver(GridIteration):
         return self.balance.is_settled and converged(
             self.traces[-1], self._coarser_trace(), self.options
         )
-
-    def errors(self) -> ErrorEstimate | None:
-        """Return estimated errors of the film on the last grid; None before its first cycle."""
-        level = self.levels[len(self.traces) - 1]
-        found = estimated_errors(level, self.traces, self.roughness, self.hierarchy)
-        if found is None or self.balance.oil_error <= LARGEST_OIL_ERROR:
-            return found
-        # each section should pass the same oil, and the film is in proportion to what passes
-        return replace(found, supply=found.supply + self.balance.oil_error)
 
     def reached_before(self, *, last: bool = False) -> tuple[tuple[int, int], float] | None:
         """Return nodes and error bar of the finest grid that converged before the last one.

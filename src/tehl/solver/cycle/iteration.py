@@ -1,6 +1,7 @@
 """The iteration on one grid of a steady contact: cycles or Newton steps, heights, heat, its end."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import count
 
@@ -8,6 +9,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.operators.heights import Heights
+from tehl.result.bars import ErrorEstimate
 from tehl.result.solution import CycleReport
 from tehl.solver.cycle.continuation import Roughness, TouchingError
 from tehl.solver.cycle.hierarchy import Hierarchy
@@ -15,18 +17,19 @@ from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.methods import MOST_CYCLES, Cycles, Visit, method_of
 from tehl.solver.cycle.start import pose_problem
-from tehl.solver.judging.balance import Balance
+from tehl.solver.judging.balance import LARGEST_OIL_ERROR, Balance
 from tehl.solver.judging.convergence import (
     SLOW_CYCLES,
     GridTrace,
     check_divergence,
     film_converged,
     must_stop,
+    recedes,
     stalled,
     temperature_converged,
 )
 from tehl.solver.judging.extrapolation import outputs_of
-from tehl.solver.judging.goal import Goal
+from tehl.solver.judging.goal import Goal, estimated_errors
 from tehl.solver.judging.measures import film_numbers, measured, nodal_film
 from tehl.solver.monitor import Monitor
 from tehl.solver.physics.thermal import Coupling
@@ -96,7 +99,7 @@ class GridIteration:
         trace = GridTrace(
             largest_change=method.largest_change,
             damping=self.coupling.damping,
-            negligible=self.goal.negligible * fine.cavity.oscillates,
+            negligible=self._negligible(),
             steady=method.steady,
             part=EXTRAPOLATED_PART if self.options.extrapolate else 1.0,
         )
@@ -166,8 +169,24 @@ class GridIteration:
             if self.coupling.state is None or len(trace.reports) < MOST_CYCLES:
                 return done and temperature_converged(trace, coarser)
             return (done and temperature_converged(trace, coarser)) or stalled(trace, 2)
+        if self.goal.is_open and not self.roughness.is_rough:
+            trace.negligible = max(self._negligible(), self.goal.spare(self.errors()))
         done = self.balance.is_kept and must_stop(trace, coarser, self.options)
+        if not done and self.strategy.gives_up and recedes(trace):
+            return True
         return done or stalled(trace, self.strategy.patience)
+
+    def _negligible(self) -> float:
+        return self.goal.negligible * self.finest.cavity.oscillates
+
+    def errors(self) -> ErrorEstimate | None:
+        """Return estimated errors of the film on the last grid; None before its first cycle."""
+        level = self.levels[len(self.traces) - 1]
+        found = estimated_errors(level, self.traces, self.roughness, self.hierarchy)
+        if found is None or self.balance.oil_error <= LARGEST_OIL_ERROR:
+            return found
+        # each section should pass the same oil, and the film is in proportion to what passes
+        return replace(found, supply=found.supply + self.balance.oil_error)
 
     def _start_heat(self, levels: Sequence[Level]) -> int:
         """Start heat and shear thinning on the last of ``levels``, if it resolves them.

@@ -7,6 +7,7 @@ stopping and errors).
 
 import math
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -54,6 +55,8 @@ ROUNDING_CHANGE = 1e-12
 """Relative iteration error of the film that is rounding: a boundary film is the same on all."""
 STALL_CYCLES, STALL_FACTOR = 8, 0.5
 """Cycles in which the residual must fall by this factor, else the iteration has stalled."""
+RECEDING = 2
+"""Successive cycles in which the residual grows that end a strategy if another one follows."""
 
 
 class DivergedError(ArithmeticError):
@@ -269,3 +272,18 @@ def stalled(now: GridTrace, patience: int = 1) -> bool:
     if len(residuals) <= cycles:
         return False
     return residuals[-1] > STALL_FACTOR * residuals[-1 - cycles]
+
+
+def recedes(now: GridTrace) -> bool:
+    """Whether the residual has grown in each of the last two cycles, so that it will hardly fall.
+
+    No film of 60 contacts whose cycles recede on the finest grid converges by the same cycles.
+
+    Parameters
+    ----------
+    now : GridTrace
+        Cycles on this grid.
+    """
+    residuals = [report.residual for report in now.reports[-RECEDING - 1 :]]
+    rises = [after > before for before, after in pairwise(residuals)]
+    return len(rises) == RECEDING and all(rises)

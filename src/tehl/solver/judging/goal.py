@@ -33,6 +33,11 @@ LEAST_HALVINGS = 3
 """Halvings of the smallest grid that is planned."""
 NEGLIGIBLE_ITERATION_ERROR = 0.05
 """Iteration error that is accepted, over the error to reach: the error bars contain it."""
+SPARE_PART, MOST_SPARE = 0.5, 0.2
+"""Part of what the other errors leave of the error to reach, and part of that error, that the
+iteration may keep on the finest grid."""
+LINES_PART = 2.0
+"""Bar of the minimum film over that of the central one from which the mesh along y decides."""
 MOST_LINES = 2
 """Most nodes along y over those along x."""
 MOST_NODES_PER_AXIS = 16385
@@ -129,6 +134,22 @@ class Goal:
         """Relative iteration error of the film that is always accepted [-]."""
         return NEGLIGIBLE_ITERATION_ERROR * self.options.target if self.is_open else 0.0
 
+    def spare(self, errors: ErrorEstimate | None) -> float:
+        """Return the relative iteration error that is accepted on the finest grid [-].
+
+        Parameters
+        ----------
+        errors : ErrorEstimate or None
+            Estimates on that grid after its last cycle.
+        """
+        if errors is None:
+            return 0.0
+        others = max(
+            errors.central - errors.iteration_central, errors.minimum - errors.iteration_minimum
+        )
+        target = self.options.target
+        return min(SPARE_PART * (target - others), MOST_SPARE * target)
+
     def fitting(self, plan: Options) -> Options:
         """Return options of the planned grid, halved until it fits into the memory."""
         available = memory_limit(self.options)
@@ -187,6 +208,8 @@ class Goal:
         if errors is None or errors.central > target or not self.options.extrapolate:
             return False
         others = errors.minimum - errors.discretisation_minimum
+        if errors.discretisation_minimum < LINES_PART * errors.discretisation_central:
+            return False
         if others > 0.5 * target or lines_bar(self.scaled, grid.domain, grid.ny) < 0.5 * target:
             return False
         finer = 2 * grid.ny - 1

@@ -126,6 +126,8 @@ def error_estimate(  # noqa: PLR0913 (one estimate)
     if combined is not None and (order < 3 or max(combined.values()) < max(bars)):
         combined = {key: max(bar, LEAST_COMBINED * least) for key, bar in combined.items()}
         estimate = replace(estimate, extrapolated=True, **combined)
+    if not traces[-1].measured:  # its cycles have not ended
+        return estimate
     found = further_errors(traces, ROUGH_PART if rough else 1.0, domain)
     resolved, reach = _spike_reach(traces, found)
     if not resolved:
