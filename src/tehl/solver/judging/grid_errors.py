@@ -262,9 +262,9 @@ def _spike_reach(traces: list[GridTrace], errors: Mapping[str, float]) -> tuple[
     in the same way.
     """
     known, excess = [one.measured for one in traces if one.measured][-3:], _excess(traces)
-    if len(known) < 2:
-        return True, 0.0
     largest = [one["pressure_max"] for one in known]
+    if len(known) < 2 or largest[-1] == 0.0:  # asperities alone carry a dry contact
+        return True, 0.0
     change = largest[-1] - largest[-2]
     growth = max(excess[-1] - excess[-2], 0.0)
     further = (SPIKE_GROWTH if _slows(excess) else UNRESOLVED_GROWTH) * growth
