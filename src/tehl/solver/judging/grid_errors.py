@@ -129,15 +129,35 @@ def error_estimate(  # noqa: PLR0913 (one estimate)
     if not traces[-1].measured:  # its cycles have not ended
         return estimate
     found = further_errors(traces, ROUGH_PART if rough else 1.0, domain)
+    resolved = _widen(found, traces, estimate.central, newtonian=newtonian)
+    return replace(estimate, bars=found, spike_resolved=resolved)
+
+
+def _widen(
+    found: dict[str, float], traces: list[GridTrace], central: float, *, newtonian: bool
+) -> bool:
+    """Widen or remove the bars ``found`` that the spike decides; return whether it is resolved.
+
+    Parameters
+    ----------
+    found : dict
+        Relative bars by name, changed in place.
+    traces : list of GridTrace
+        Grids halved each time, coarsest first.
+    central : float
+        Relative bar of the central film.
+    newtonian : bool
+        As for `error_estimate`.
+    """
     resolved, reach = _spike_reach(traces, found)
     if not resolved:
         found["pressure_max"] = max(found["pressure_max"], reach)
         for name in STRESSES if newtonian else ():  # the stress grows with the viscosity there
             found.pop(name, None)
-    _limit_bars(found, traces, estimate.central, resolved=resolved)
+    _limit_bars(found, traces, central, resolved=resolved)
     if "rolling" in found:
         found["rolling"] += traces[-1].measured["rolling_tail"]
-    return replace(estimate, bars=found, spike_resolved=resolved)
+    return resolved
 
 
 def _largest_bar(change: float, most: float) -> float:
