@@ -11,7 +11,12 @@ from tehl.api.solvers import solve
 from tehl.contact.options import Domain, Options
 from tehl.estimate.domain import domain_error, far_field_error, recommended_domain
 from tehl.estimate.scaling import groups
-from tehl.solver.judging.richardson import estimate, first_order_bar, with_growing_spike
+from tehl.solver.judging.richardson import (
+    estimate,
+    first_order_bar,
+    spike_reach,
+    with_growing_spike,
+)
 
 
 def moes(load: float, speed: float = 10.0) -> ContactProblem:
@@ -77,8 +82,11 @@ def test_the_bar_of_a_first_order_wedge_covers_the_larger_change():
 
 def test_a_growing_spike_widens_the_bar_of_the_largest_pressure():
     flat = estimate((1.0, 1.01, 1.0125), domain=0.0)
-    assert with_growing_spike(flat, 0.7, 0.71) == flat
-    assert with_growing_spike(flat, 0.8, 1.0).uncertainty > 0.3
+    assert with_growing_spike(flat, spike_reach(0.7, [0.1, 0.11, 0.111])) == flat
+    slowing, steady = (spike_reach(0.9, [0.1, 0.2, last]) for last in (0.25, 0.3))
+    assert slowing == pytest.approx(1.0)
+    assert steady == pytest.approx(1.5)
+    assert with_growing_spike(flat, steady).uncertainty > 0.4
 
 
 def test_a_failure_can_be_pickled():

@@ -1,7 +1,7 @@
 """Error bars of a steady result, from three grids and one larger domain."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Generic, NoReturn, TypeVar
 
@@ -13,10 +13,12 @@ from tehl.post.following import Following
 from tehl.result import registry
 from tehl.result.bars import Estimate
 from tehl.result.solution import NO_COST, ConvergenceError, Cost, Hint, Solution, Status
+from tehl.solver.judging.measures import SPIKE_FROM, highest_excess
 from tehl.solver.judging.richardson import (
     LESS_REGULAR,
     RESIDUE,
     estimate,
+    spike_reach,
     with_growing_spike,
 )
 from tehl.solver.judging.verdict import LARGEST_FILM_BAR, too_coarse
@@ -25,9 +27,7 @@ from tehl.solver.physics.bodies import solve
 
 LARGER_DOMAIN_FACTOR = 2
 """Size of the larger domain over that of the result."""
-OUTLET_HALF = 0.5
-"""X downstream of which the pressure spike is searched, in Hertz half-widths."""
-JUDGED = ("film_central", "film_minimum", "pressure_max")
+JUDGED = ("film_central", "film_minimum")
 """Values whose error bars decide whether the grid is too coarse; small temperatures do not."""
 WITHOUT_FIRST = "The first grid is left out: each bar is the full change between the other two."
 
@@ -291,7 +291,7 @@ def _with_bars(
         for name in wider
     }
     highest = uncertainty["pressure_max"]
-    uncertainty["pressure_max"] = with_growing_spike(highest, spike(middle), spike(finest))
+    uncertainty["pressure_max"] = with_growing_spike(highest, reach_of_spike(used))
     return finest.but(uncertainty=uncertainty)
 
 
@@ -315,6 +315,11 @@ def _quantities(result: Solution) -> dict[str, float]:
     return found
 
 
-def spike(result: Solution) -> float:
-    """Return the largest pressure downstream of X = 0.5 [-]."""
-    return float(result.scaled.pressure[:, result.scaled.x > OUTLET_HALF].max())
+def reach_of_spike(runs: Sequence[Solution]) -> float:
+    """Return the pressure that the spike may have on finer grids than the last of some [-]."""
+    spikes = []
+    for run in runs:
+        x, y = run.scaled.x[run.scaled.x > SPIKE_FROM], run.scaled.y[:, None]
+        pressure = run.scaled.pressure[:, -x.size :]
+        spikes.append(highest_excess(pressure, run.groups.shape.dry_pressure(x, y)))
+    return spike_reach(spikes[-1][0], [excess for _, excess in spikes])

@@ -12,7 +12,13 @@ from typing import Any
 from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.result.bars import ErrorEstimate
 from tehl.solver.judging.convergence import LEAST_KELVIN, GridTrace
-from tehl.solver.judging.richardson import SECOND_BEFORE, discretisation_bar, first_order_bar
+from tehl.solver.judging.richardson import (
+    SECOND_BEFORE,
+    discretisation_bar,
+    first_order_bar,
+    slows,
+    spike_reach,
+)
 
 ROUGH_PART = 0.7
 """Error over the last change of the film between grids that resolve the heights: a third if of
@@ -35,9 +41,6 @@ first grid that reaches 1 %, judged on grids two to four times as fine, 1 minimu
 bar, by a seventh; without them 4, by up to 13 bars."""
 SMOOTH_PART, WAVE_PART = 1.7, 20.0
 """Factors of the two terms of `single_grid_estimate`."""
-SPIKE_GROWTH, UNRESOLVED_GROWTH, SLOWING = 2.0, 6.0, 0.7
-"""Further growth of the pressure spike over its last change, where that is less than this part of
-the one before, and where it is not."""
 LARGE_GROWTH, SECOND_ORDER = 0.01, 0.35
 """Relative growth of the largest pressure on a finer grid above which its change must be less than
 this part of the one before: a quarter is second order."""
@@ -191,7 +194,7 @@ def _limit_bars(
             found[name] = max(found[name], central)
     if stated:
         return
-    if _is_hottest_inside(traces[-1]) and not (resolved and _slows(_excess(traces))):
+    if _is_hottest_inside(traces[-1]) and not (resolved and slows(_excess(traces))):
         # without sliding that is where the oil flows through the spike
         found["film_rise_max"] = max(found.get("film_rise_max", 1.0), 1.0)
 
@@ -276,20 +279,16 @@ def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> 
 def _spike_reach(traces: list[GridTrace], errors: Mapping[str, float]) -> tuple[bool, float]:
     """Return whether the largest pressure is known within its bar, and how the spike may exceed it.
 
-    That is the part by which the spike may be above the largest pressure on finer grids. The excess
-    of the spike over Hertz may grow by as much on each finer grid (M = 75, L = 11: 0.17, 0.25,
-    0.34, 0.45, 0.55 on 65 to 1025 nodes), until the spike is the largest pressure, which then grows
-    in the same way.
+    That is the part by which the spike may be above the largest pressure on finer grids: where that
+    is the spike, it grows as it does.
     """
     known, excess = [one.measured for one in traces if one.measured][-3:], _excess(traces)
     largest = [one["pressure_max"] for one in known]
     if len(known) < 2 or largest[-1] == 0.0:  # asperities alone carry a dry contact
         return True, 0.0
     change = largest[-1] - largest[-2]
-    growth = max(excess[-1] - excess[-2], 0.0)
-    further = (SPIKE_GROWTH if _slows(excess) else UNRESOLVED_GROWTH) * growth
-    reach = (known[-1]["spike"] + further) / largest[-1] - 1.0
-    grows = change > LARGE_GROWTH * largest[-1] and not _slows(largest, SECOND_ORDER)
+    reach = spike_reach(known[-1]["spike"], excess) / largest[-1] - 1.0
+    grows = change > LARGE_GROWTH * largest[-1] and not slows(largest, SECOND_ORDER)
     return not grows and reach <= errors.get("pressure_max", 0.0), reach
 
 
@@ -303,11 +302,6 @@ def _is_hottest_inside(trace: GridTrace) -> bool:
 def _excess(traces: list[GridTrace]) -> list[float]:
     """Return the excess of the spike over the Hertz pressure on the last grids [-]."""
     return [one.measured["excess"] for one in traces if one.measured][-3:]
-
-
-def _slows(values: list[float], part: float = SLOWING) -> bool:
-    """Return whether the last change of three values is less than a part of the one before."""
-    return len(values) == 3 and values[2] - values[1] < part * (values[1] - values[0])
 
 
 def single_grid_estimate(

@@ -120,9 +120,15 @@ def solid_friction(level: Level) -> float:
 def _spike(level: Level) -> dict[str, float]:
     """Return the pressure where it exceeds that of Hertz most, downstream, and its excess [-]."""
     behind = level.grid.x > SPIKE_FROM
-    pressure = level.film.p[:, behind]
-    excess = pressure - dry_pressure(level.grid, level.equations.groups)[:, behind]
-    return {"spike": float(pressure.flat[excess.argmax()]), "excess": float(excess.max())}
+    dry = dry_pressure(level.grid, level.equations.groups)
+    spike, excess = highest_excess(level.film.p[:, behind], dry[:, behind])
+    return {"spike": spike, "excess": excess}
+
+
+def highest_excess(pressure: Array, dry: Array) -> tuple[float, float]:
+    """Return the pressure where it exceeds the dry one most, and its excess [-]."""
+    excess = pressure - dry
+    return float(pressure.flat[excess.argmax()]), float(excess.max())
 
 
 def mid_film_stress(

@@ -24,6 +24,9 @@ SECOND_BEFORE = 4.0
 """Ratio of two changes of second order."""
 GROWING = 2.0
 """Error bar over a change that is not smaller than the one before."""
+SPIKE_GROWTH, UNRESOLVED_GROWTH, SLOWING = 2.0, 6.0, 0.7
+"""Further growth of the pressure spike over its last change, where that is less than this part of
+the one before, and where it is not."""
 
 
 def observed_order(first: float, last: float) -> float | None:
@@ -76,21 +79,39 @@ def _without_order(first: float, last: float) -> float:
     return max(last, 0.25 * first) if is_faster else first
 
 
-def with_growing_spike(highest: Estimate, middle: float, finest: float) -> Estimate:
-    """Widen the error bar of the largest pressure by the growth of the spike.
+def slows(values: list[float], part: float = SLOWING) -> bool:
+    """Return whether the last change of three values is less than a part of the one before."""
+    return len(values) == 3 and values[2] - values[1] < part * (values[1] - values[0])
 
-    The spike grows with each finer grid, to first order, and may exceed the central pressure on
-    finer grids only: it may still grow by twice its last change.
+
+def spike_reach(spike: float, excess: list[float]) -> float:
+    """Return the pressure that the spike may have on finer grids [-].
+
+    Its excess over Hertz may grow by as much on each finer grid (M = 75, L = 11: 0.17, 0.25, 0.34,
+    0.45, 0.55 on 65 to 1025 nodes), until it is the largest pressure.
+
+    Parameters
+    ----------
+    spike : float
+        Its pressure on the finest grid [-].
+    excess : list of float
+        Its excess over Hertz on two or three grids halved each time [-].
+    """
+    further = SPIKE_GROWTH if slows(excess) else UNRESOLVED_GROWTH
+    return spike + further * max(excess[-1] - excess[-2], 0.0)
+
+
+def with_growing_spike(highest: Estimate, reach: float) -> Estimate:
+    """Widen the error bar of the largest pressure, or rise, to what it may become on finer grids.
 
     Parameters
     ----------
     highest : Estimate
-        Estimate of the largest pressure [-].
-    middle, finest : float
-        Pressure of the spike on the last two grids [-].
+        Estimate of the largest value.
+    reach : float
+        Value that the spike may have on finer grids.
     """
-    reach = finest + 2.0 * max(finest - middle, 0.0) - highest.value
-    bar = max(highest.discretisation, reach)
+    bar = max(highest.discretisation, reach - highest.value)
     return replace(highest, discretisation=bar, uncertainty=math.hypot(bar, highest.domain))
 
 

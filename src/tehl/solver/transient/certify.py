@@ -25,7 +25,7 @@ from tehl.solver.judging.certify import (
     message_on,
     nodes_of,
     not_certified,
-    spike,
+    reach_of_spike,
     too_coarse_to_certify,
     widened,
     widest,
@@ -40,7 +40,7 @@ from tehl.solver.judging.verdict import LARGEST_FILM_BAR
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.transient.run import solve_transient
 
-JUDGED = ("film_minimum", "film_central_least", "pressure_max")
+JUDGED = ("film_minimum", "film_central_least")
 """Values whose error bars decide whether the grid is too coarse; temperatures do not."""
 GROWTH = 2.0
 """Further growth of a spike over its last change: it grows to first order."""
@@ -172,10 +172,12 @@ def estimates(runs: Runs, wide: TransientSolution) -> dict[str, Estimate]:
     }
     growth, pressures = _growth(runs), _shared(runs[-2:], "pressure_max")[-1]
     highest = found[-1]["pressure_max"] + float(growth[np.argmax(pressures + growth)])
-    bars["pressure_max"] = with_growing_spike(bars["pressure_max"], highest, highest)
+    bars["pressure_max"] = with_growing_spike(bars["pressure_max"], highest)
     hottest = bars.get("film_rise_max")
     if hottest is not None and not hottest.is_second_order:  # heated by the spike
-        bars["film_rise_max"] = with_growing_spike(hottest, *hottest.values[-2:])
+        before, now = hottest.values[-2:]
+        reach = now + GROWTH * max(now - before, 0.0)
+        bars["film_rise_max"] = with_growing_spike(hottest, reach)
     return bars
 
 
@@ -249,8 +251,8 @@ def _growth(runs: Runs) -> Array:
     the only time at which all runs have the whole field.
     """
     middle, finest = _shared(runs[-2:], "pressure_max")
-    before, now = (spike(run.start) for run in runs[-2:])
-    reach = (now + GROWTH * max(now - before, 0.0)) * runs[-1].start.scales.hertz_pressure
+    start = runs[-1].start
+    reach = reach_of_spike([run.start for run in runs]) * start.scales.hertz_pressure
     excess = np.full_like(finest, max(reach - float(runs[-1].history.pressure_max[0]), 0.0))
     if shows_second_order(order_of_history(_shared(runs, "pressure_max"))):
         return excess
