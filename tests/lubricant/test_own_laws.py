@@ -143,13 +143,14 @@ print(result.central_film_thickness)
 def test_without_the_package_one_sentence_names_it(place):
     shutil.copy(place / "film.nc", place / "sent.nc")
     read = ran(place, None, "-c", "import tehl; tehl.load('sent.nc')")
-    assert read.stderr.splitlines()[-1] == (
-        'tehl.base.errors.FileFormatError: sent.nc has lubricant.viscosity.law = "mcewen" of the '
-        "package mcewen-law 1.2: install it to read this file"
+    sentence = (
+        'sent.nc has lubricant.viscosity.law = "mcewen" of the package mcewen-law 1.2: install it '
+        "to read this file"
     )
-    shown = ran(place, None, "-m", "tehl", "show", "sent.nc")
-    assert (shown.returncode, shown.stdout) == (2, "")
-    assert len(shown.stderr.splitlines()) == 1
+    assert read.stderr.splitlines()[-1] == f"tehl.base.errors.FileFormatError: {sentence}"
+    drawn = ran(place, None, "-m", "tehl", "plot", "sent.nc", "-o", "pictures")
+    assert (drawn.returncode, drawn.stdout) == (2, "")
+    assert drawn.stderr.splitlines() == [f"tehl: {sentence}"]
     solved = ran(place, None, "-m", "tehl", "explain", "case.toml")
     assert 'lubricant.viscosity.law = "mcewen": unknown; known are roelands' in solved.stderr
 

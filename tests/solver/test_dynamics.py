@@ -1,6 +1,7 @@
 """Stiffness and damping: independent values, two steady films, the march in time, passivity."""
 
 from importlib.metadata import version
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import FAST
 from tehl.solver.cycle.start import pose_problem
+from tehl.solver.physics import response
 from tehl.solver.physics.dynamics import changes
 from tehl.studies.bearing import bearing_table, in_series, radial_loads
 from tests.cases import ball_tables
@@ -237,10 +239,18 @@ def marched(omega, points):
     ],
 )
 def test_the_march_in_time_has_the_same_response(omega, points):
-    response = marched(omega, points)
+    found = marched(omega, points)
     stiffness, damping = dimensionless(solve(at(moes_contact(50.0, 10.0), omega), on(points)))
-    assert response.real == pytest.approx(stiffness[1], rel=0.01)
-    assert response.imag == pytest.approx(damping[1], rel=0.03)
+    assert found.real == pytest.approx(stiffness[1], rel=0.01)
+    assert found.imag == pytest.approx(damping[1], rel=0.03)
+
+
+def test_frequencies_within_a_factor_of_two_share_a_factorisation(monkeypatch):
+    monkeypatch.setattr(response, "CloseInverse", lambda _, omega: SimpleNamespace(omega=omega))
+    inverses = response.CloseInverses(None)
+    assert inverses.at(1.0) is inverses.at(2.0) is inverses.at(0.5)
+    assert inverses.at(0.0) is inverses.at(0.0)
+    assert len({id(inverses.at(omega)) for omega in (0.0, 1.0, 2.1, 0.4)}) == 4
 
 
 def test_films_absorb_and_obey_kramers_and_kronig(swept: Result):

@@ -18,7 +18,13 @@ from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import one_thread
 from tehl.solver.cycle.start import pose_problem
-from tehl.solver.physics.response import STATIC_RESIDUAL, Directions, FilmResponse, Solutions
+from tehl.solver.physics.response import (
+    STATIC_RESIDUAL,
+    CloseInverses,
+    Directions,
+    FilmResponse,
+    Solutions,
+)
 
 FRONT_DISTANCE = 0.1
 """Distance from the cavity, in half-widths, at which the pressure limits the amplitude."""
@@ -198,7 +204,8 @@ def changes(
     found = np.zeros((2, 2, 2, omegas.size))
     pressure = np.zeros((omegas.size, every.size))
     with one_thread():
-        still = Directions(system, 0.0)
+        inverses = CloseInverses(system)
+        still = Directions(system, 0.0, inverses.at(0.0))
         static = [still.solve(steady, 0.0 * every, STATIC_RESIDUAL) for steady, _ in sources]
         spaces = [
             Solutions(system, source[1] + system.parts(one)[1])
@@ -209,7 +216,7 @@ def changes(
             for number, (one, space) in enumerate(zip(static, spaces, strict=True)):
                 late, is_close = space.start(omega)
                 if not is_close:
-                    directions = directions or Directions(system, omega)
+                    directions = directions or Directions(system, omega, inverses.at(omega))
                     late = space.at(directions, late)
                 now, ahead = _forces(system, one, moved[number]), _forces(system, late, 0.0)
                 now[0] += outside[number][0]

@@ -38,6 +38,8 @@ from tehl.solver.physics.cavity import oil_flow
 STATIC_RESIDUAL, RESPONSE_RESIDUAL = 1e-6, 3e-5
 """Relative residuals of Q and of R: k is then within 2e-6, c within 3e-5, rolling and cross terms
 within 2e-4 (M 10 to 300, L 2 to 20, Omega 0.05 to 8; against 1e-9)."""
+SAME_INVERSE = 2.0
+"""Ratio of frequencies up to which one factorisation serves both."""
 MOST_DIRECTIONS = 200
 """Search directions of a frequency, of which it needs 20 to 40, at which the solve fails."""
 DEPENDENT = 1e-13
@@ -210,7 +212,7 @@ class CloseInverse:
     """
 
     def __init__(self, system: FilmResponse, omega: float) -> None:
-        lag = 1j * omega if omega else 0.0
+        self.omega, lag = omega, 1j * omega if omega else 0.0
         self.single = np.complex64 if omega else np.float32
         near = rows(system.level.equations.influence.self_film * system.carries)
         pressed = system.by_pressure - lag * rows(system.denser)
@@ -228,6 +230,21 @@ class CloseInverse:
         return np.asarray(self.close.solve(rest.astype(self.single)).astype(rest.dtype))
 
 
+class CloseInverses:
+    """Approximate inverses at some frequencies, each for those near it too."""
+
+    def __init__(self, system: FilmResponse) -> None:
+        self.system, self.known = system, list[CloseInverse]()
+
+    def at(self, omega: float) -> CloseInverse:
+        """Return the inverse at a frequency, or at one within `SAME_INVERSE`."""
+        for one in self.known:
+            if one.omega / SAME_INVERSE <= omega <= one.omega * SAME_INVERSE:
+                return one
+        self.known.append(CloseInverse(self.system, omega))
+        return self.known[-1]
+
+
 class Directions:
     """Search directions at one frequency, and their orthonormal images: they serve all sources.
 
@@ -235,9 +252,8 @@ class Directions:
     residuals).
     """
 
-    def __init__(self, system: FilmResponse, omega: float) -> None:
-        self.system, self.omega = system, omega
-        self.close = CloseInverse(system, omega)
+    def __init__(self, system: FilmResponse, omega: float, close: CloseInverse) -> None:
+        self.system, self.omega, self.close = system, omega, close
         size, kind = (MOST_DIRECTIONS, system.unknown.size), complex if omega else float
         self.number, self.steps, self.images = 0, np.empty(size, kind), np.empty(size, kind)
 
