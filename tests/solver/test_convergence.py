@@ -1,5 +1,7 @@
 """Estimated iteration errors of damped cycles, error bars between rough surfaces, damping."""
 
+from unittest.mock import Mock
+
 import numpy as np
 import pytest
 
@@ -19,6 +21,7 @@ from tehl.solver.judging.grid_errors import (
     THIRD_PART,
     UNEVEN,
     error_estimate,
+    extrapolated_bars,
     further_errors,
 )
 from tehl.solver.physics.thermal import LARGEST_LOG_STEP, damped
@@ -155,6 +158,20 @@ def test_cycles_recede_where_the_residual_grows_twice_in_succession(
     for number, residual in enumerate(residuals, 1):
         trace.add(report(number, residual))
     assert recedes(trace) is found
+
+
+@pytest.mark.parametrize(("left", "extrapolated"), [(1e-3, True), (0.04, False)])
+def test_a_first_grid_that_has_not_converged_shows_no_order(
+    left: float, extrapolated: bool
+) -> None:
+    """``left`` is the iteration error of the minimum film on the first of three grids."""
+    traces = [GridTrace(outputs=Mock()) for _ in range(3)]
+    for trace, film in zip(traces, (0.92, 0.98, 0.995), strict=True):
+        trace.measured = {"film_central": film, "film_minimum": film}
+        trace.central.values += [film, film]
+        trace.minimum.values += [film - left * 0.7 / 0.3, film]
+        trace.reports.append(report(1, 1e-6))
+    assert (extrapolated_bars(traces, 3) is not None) is extrapolated
 
 
 def report(cycle: int, residual: float) -> CycleReport:

@@ -7,9 +7,10 @@ import pytest
 from tehl.api.problem import case_from_tables
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
+from tehl.contact.supply import Supply
 from tehl.estimate.scaling import ScaledProblem
 from tehl.solver import steady
-from tehl.solver.cycle.ladder import UNCOMBINED, ladder
+from tehl.solver.cycle.ladder import STARVED_DAMPING, UNCOMBINED, ladder
 from tehl.solver.monitor import SILENT
 
 OPTIONS = Options(extrapolate=True)
@@ -84,3 +85,12 @@ def test_the_steep_front_of_a_thinning_oil_converges_without_combined_cycles(
     ring, options = case_from_tables(tables)[0], OPTIONS.on_points(97, 49)
     found = steady.try_strategies(ring, options, monitor=SILENT, rough=False)[1]
     assert found.status.converged
+
+
+def test_scarce_oil_is_damped_more(hybrid_bearing: ContactProblem) -> None:
+    starved = hybrid_bearing.model_copy(update={"supply": Supply(ratio=0.6)})
+    rungs = (
+        ladder(ScaledProblem.of(one), OPTIONS, rough=False) for one in (starved, hybrid_bearing)
+    )
+    steep, less = (next(one.damping for one in some if one.damping < 1.0) for some in rungs)
+    assert steep == STARVED_DAMPING < less

@@ -353,7 +353,7 @@ def driving_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array, 
     for slope, field in ((slope_x.T, pressure.T), (slope_y, pressure)):
         steps = np.diff(field, axis=0)
         product, total = steps[:-1] * steps[1:], field[2:] - field[:-2]
-        factors = (groups.alpha_bar / STEEP * (steps[1:] - steps[:-1])) ** 4
+        factors = np.square(np.square(groups.alpha_bar / STEEP * (steps[1:] - steps[:-1])))
         rises = product > 0.0
         harmonic = np.where(rises, 4.0 * product / np.where(rises, total, 1.0) ** 2, 0.0)
         slope[1:-1] *= 1.0 + factors / (1.0 + factors) * (harmonic - 1.0)

@@ -17,7 +17,7 @@ MOST_CARRIED, MOST_HALVINGS = 1.5, 8
 exceed by little even when dry; and most times."""
 LONGEST_STEP = 0.3
 """Largest change of pressure in a Newton step, in Hertz pressures."""
-CONTRACTION, SMALL_REPEATED, MOST_REPEATED = 0.5, 0.05, 4
+CONTRACTION, SMALL_REPEATED, MOST_REPEATED = 0.5, 0.15, 4
 """Steps with the matrix of an earlier state: over the one before, above which that is too far away,
 over the first one, below which they have converged, and most after the first."""
 
@@ -124,8 +124,7 @@ class CoarsestSolver:
         carried = film.p.copy(), film.asperity.copy()
         work.rhs[: known.size] = np.where(work.dry[free], 0.0, system.residual[free])
         work.rhs[known.size] = system.missing_load
-        with one_thread():
-            step, _ = dgetrs(known.factors, known.pivots, work.rhs[: known.size + 1], trans=1)
+        step, _ = dgetrs(known.factors, known.pivots, work.rhs[: known.size + 1], trans=1)
         work.rhs[: known.size + 1] = step
         state = known.state._replace(p=film.p.ravel(), asperity=film.asperity.ravel())
         change = take_step(state, system, work, known.size, LONGEST_STEP)

@@ -63,7 +63,7 @@ class Hierarchy:
     """The levels of a contact, coarsest first, and the solver of the coarsest.
 
     ``expected_film`` is the central film by formula [-]. Where cells are long, cycles halve columns
-    before lines, to levels in ``between``.
+    before lines, to levels in ``between``; ``chains`` are the levels of the cycles on each grid.
     """
 
     scaled: ScaledProblem
@@ -73,6 +73,7 @@ class Hierarchy:
     expected_film: float
     is_long: bool = False
     between: dict[Grid, Level] = field(default_factory=dict)
+    chains: dict[Grid, list[Level]] = field(default_factory=dict)
 
     def chain(self, levels: Sequence[Level]) -> Sequence[Level]:
         """Return the levels of a cycle on the last of ``levels``, coarsest first.
@@ -82,13 +83,18 @@ class Hierarchy:
         """
         if not self.is_long or len(levels) < 2:
             return levels
-        known, fine = {one.grid: one for one in self.levels} | self.between, levels[-1]
+        fine = levels[-1]
+        found = self.chains.get(fine.grid, [])
+        if found and found[-1] is fine:
+            return found
+        known = {one.grid: one for one in self.levels} | self.between
         grids = long_grids(fine.grid, self.levels[0].grid, by_columns=True)
         for grid in grids:
             if grid not in known:
                 made = Level(self._equations(grid), fine.smoother.relaxation)
                 known[grid] = self.between[grid] = made
-        return [known[grid] for grid in grids]
+        self.chains[fine.grid] = [known[grid] for grid in grids]
+        return self.chains[fine.grid]
 
     def _equations(self, grid: Grid) -> Equations:
         flow = self.levels[0].equations.flow

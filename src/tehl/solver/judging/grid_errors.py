@@ -62,6 +62,9 @@ of the film by the last grid, and largest value."""
 LEAST_RATIO, MOST_RATIO, SMALL_CHANGE = 2.8, 6.0, 1e-3
 """Ratio of two changes of the film that shows second order (1.5 to 2.6), and relative change that
 is negligible."""
+MOST_UNSETTLED = 0.5
+"""Iteration error of the first of three grids over its change to the next one, below which they may
+show an order: few cycles are spent on a coarse grid."""
 LARGEST_CHANGE_OF_FILM = 0.3
 """Relative change of the film by the last grid up to which it is extrapolated."""
 SHARED = 0.25
@@ -233,12 +236,19 @@ def extrapolated_bars(traces: list[GridTrace], order: int = 2) -> dict[str, floa
             return None
         before = (middle - first) * math.copysign(1.0, last - middle)
         shown = LEAST_RATIO * change < before < MOST_RATIO * change
+        shown = shown and _iteration_error(traces[-3], name) < MOST_UNSETTLED * before
         if order > 2 and not (shown or change < SMALL_CHANGE * last):
             return None
         further = abs(film - (middle + (middle - first) / 3.0))
         left = min(LARGEST_EXTRAPOLATED_BAR, LEAST_EXTRAPOLATED_BAR * change / film) * change / 3.0
         found[name.replace("film", "discretisation")] = max(part * further, left) / film
     return found
+
+
+def _iteration_error(trace: GridTrace, name: str) -> float:
+    """Return the iteration error of ``film_central`` or ``film_minimum`` [-]."""
+    numbers = trace.central if name == FILM[0] else trace.minimum
+    return numbers.iteration_error() if trace.reports else 0.0
 
 
 def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> dict[str, float]:

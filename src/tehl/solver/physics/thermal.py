@@ -5,6 +5,7 @@ and density, which are constant during a cycle and injected to the coarser grids
 (docs/theory/numerics-thermal.md on the coupling with the film).
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -360,6 +361,9 @@ def damped(
     """
 
     def step(before: Array, after: Array) -> Array:
+        if damping == 1.0:  # the same without logarithms
+            least, most = math.exp(-LARGEST_LOG_STEP), math.exp(LARGEST_LOG_STEP)
+            return np.clip(after, least * before, most * before)
         change = damping * np.log(after / before)
         return before * np.exp(np.clip(change, -LARGEST_LOG_STEP, LARGEST_LOG_STEP))
 
