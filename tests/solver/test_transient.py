@@ -136,27 +136,31 @@ def test_mass_travels_through_the_contact_at_the_mean_speed():
     assert np.abs(difference).max() < 0.05 * np.ptp(arriving)
 
 
-class Smoothers:
-    """Records the relaxation of each step."""
+class Steps:
+    """Records the reports of the steps."""
 
     def __init__(self) -> None:
-        self.names: list[str] = []
+        self.reports = []
 
     def __getattr__(self, name):
         return getattr(SILENT, name)
 
     def step(self, report):
-        self.names.append(report.smoother)
+        self.reports.append(report)
 
 
 def test_a_load_that_rises_during_the_run_needs_no_slower_relaxation():
     end = in_time(1.5).transient.duration
     load = [[0.0, 1.0], [0.4 * end, 1.0], [end, 1.3]]
-    monitor = Smoothers()
+    monitor = Steps()
     run = solve_transient(in_time(1.5, transient={"load": load}), OPTIONS, monitor=monitor)
     assert run.status.converged
-    assert set(monitor.names) == {"fast"}
+    assert {one.smoother for one in monitor.reports} == {"fast"}
     assert run.history.cycles.max() <= 5
+    history, last = run.history, monitor.reports[-1]
+    assert last.film_central * run.start.scales.film_thickness == history.film_central[-1]
+    assert last.film_minimum * run.start.scales.film_thickness == history.film_minimum[-1]
+    assert last.pressure_max * run.start.scales.hertz_pressure == history.pressure_max[-1]
 
 
 def test_the_load_follows_its_table():

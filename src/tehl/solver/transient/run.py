@@ -28,7 +28,7 @@ from tehl.solver.judging.measures import is_resolved, mid_film_stress, mid_film_
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import Attempt, finest_grid, try_strategies
 from tehl.solver.transient.checks import check_peaks, check_size, check_stride, check_waves
-from tehl.solver.transient.snapshot import ANEW, Record, Snapshot, carried, kept_steps
+from tehl.solver.transient.snapshot import ANEW, COLUMNS, Record, Snapshot, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
 
 SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
@@ -184,14 +184,14 @@ class Run:
         self.record.note(self.level, heights, numbers, keep=keep, stress=stress)
 
     def _report(self, step: int, end: StepEnd) -> StepReport:
-        _, _, central, minimum, *_ = self.record.rows[-1]
+        row = dict(zip(COLUMNS, self.record.rows[-1], strict=True))
         return StepReport(
             step=step,
             steps=self.steps,
             time=step * self.seconds,
-            film_central=central,
-            film_minimum=minimum,
-            pressure_max=float(carried(self.level).max()),
+            film_central=row["film_central"],
+            film_minimum=row["film_minimum"],
+            pressure_max=row["pressure_max"],
             **asdict(end),
         )
 
