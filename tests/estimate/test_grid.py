@@ -8,7 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tehl.contact.options import Domain
-from tehl.estimate.grid import LEAST_LINES, Grid, can_mirror, coarsest_of, halved_grids
+from tehl.estimate.grid import (
+    LEAST_LINES,
+    Grid,
+    can_mirror,
+    coarsest_of,
+    crowding,
+    halved_grids,
+)
 from tests.reference import DOMAIN
 
 COARSENABLE = st.builds(lambda n, k: n * 2**k + 1, st.integers(16, 31), st.integers(1, 4))
@@ -75,3 +82,23 @@ def test_long_cells_are_halved_to_a_matrix_of_a_few_hundred_nodes(nx, coarsest):
     found = coarsest_of(grid(nx, nx // 2 + 1), 1.0)
     assert found.points == coarsest
     assert found.shape[0] > LEAST_LINES
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+def test_lines_crowd_at_the_ends_of_a_roller(mirror):
+    ends = Domain.model_construct(x=(-3.0, 1.5), y=(-1.0, 1.0))
+    part = 0.05
+    lines = Grid(nx=33, ny=129, domain=ends, mirror=mirror, crowding=crowding(part))
+    y = lines.y
+    assert y[-1] - y[-2] == pytest.approx(part * lines.dy, rel=0.1)
+    np.testing.assert_allclose(lines.coarser().y, y[::2], atol=1e-14)
+    assert lines.widths.sum() == pytest.approx(2.0)
+    # second differences of a parabola are exact, at ends and on the symmetry line too
+    south, north = lines.across
+    parabola = 0.5 * (y**2 if mirror else (y + 1.0) ** 2)
+    below, above = np.append(parabola[1], parabola[:-1]), np.append(parabola[1:], parabola[-2])
+    found = (south * (below - parabola) + north * (above - parabola)) / lines.dy**2
+    np.testing.assert_allclose(found[:-1], 1.0, rtol=1e-9)
+    towards_end = 0.5 * (1.0 - y) ** 2
+    below = towards_end[-2] - towards_end[-1]
+    assert (south[-1] + north[-1]) * below / lines.dy**2 == pytest.approx(1.0)

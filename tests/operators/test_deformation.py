@@ -16,7 +16,7 @@ from tehl.operators.deformation import (
 )
 from tehl.operators.dry import dry_pressure
 from tehl.operators.film import gap
-from tehl.operators.influence import influence_of
+from tehl.operators.influence import influence_of, matrix_of
 from tehl.operators.multilevel import MultilevelDeformation
 from tests.operators.contacts import contact_groups, grid_of
 from tests.reference import DOMAIN, read
@@ -196,3 +196,23 @@ def test_a_tight_film_is_deflected_to_rounding_under_a_narrow_peak():
     assert errors[0] < 1e-12
     assert isinstance(usual, MultilevelDeformation)
     assert errors[1] > 1e-5
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+def test_lines_that_crowd_at_the_ends_of_a_roller_are_bent_as_even_ones(mirror):
+    ends, numbers = Domain.model_construct(x=(-2.0, 2.0), y=(-1.0, 1.0)), contact_groups(3.0)
+
+    def bent(lines: int, crowding: float) -> tuple[Grid, Array]:
+        grid = Grid(nx=33, ny=lines, domain=ends, mirror=mirror, crowding=crowding)
+        found = np.empty(grid.shape)
+        pressure = np.maximum(1.0 - grid.x**2, 0.0) * (1.0 + grid.y[:, None] ** 2)
+        choose("auto", grid, numbers).deflect(pressure, found)
+        by_matrix = matrix_of(grid, influence_of(grid, numbers)) @ pressure.ravel()
+        np.testing.assert_allclose(found.ravel(), by_matrix, rtol=1e-12)
+        return grid, found
+
+    crowded, found = bent(65, 1.5)
+    even, expected = bent(257, 0.0)
+    for column in (0, 16):
+        there = np.interp(crowded.y, even.y, expected[:, column])
+        np.testing.assert_allclose(found[:, column], there, rtol=3e-3)

@@ -1,5 +1,6 @@
 """Uniform grids, axis 0 along y and axis 1 along x, and their hierarchy by halving."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,6 +17,12 @@ LEAST_LINES = 12
 """Fewest stored intervals across a coarsest grid with long cells."""
 
 
+END_CELL, LEAST_PART, CROWDING_STEPS = 1.4, 0.02, 40
+"""Length of the last cells of a roller over their width: with 1 single nodes there alternate from
+cycle to cycle, with 2 the thinnest film of a logarithmic profile errs three times as much. Least
+part of the mean distance of lines that it may be; iterations for c."""
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Grid:
     """Uniform nodes on a rectangle, or on its upper half if the contact is symmetric in y."""
@@ -27,6 +34,9 @@ class Grid:
     """In Hertz half-widths."""
     mirror: bool
     """Only y >= 0 is stored; row 0 is the symmetry line."""
+    crowding: float = 0.0
+    """c of the lines of a roller, Y = tanh(c s)/tanh(c) with s uniform, which crowd at its ends;
+    uniform if zero."""
 
     @property
     def dx(self) -> float:
@@ -35,7 +45,7 @@ class Grid:
 
     @property
     def dy(self) -> float:
-        """Mesh width along y, in a_y; that of a single row is the whole width."""
+        """Mesh width along y, in a_y, the mean one; that of a single row is the whole width."""
         return (self.domain.y[1] - self.domain.y[0]) / max(self.ny - 1, 1)
 
     @property
@@ -57,7 +67,17 @@ class Grid:
     def y(self) -> Array:
         """Coordinates of the stored rows."""
         start = 0.0 if self.mirror or self.ny == 1 else self.domain.y[0]
-        return start + self.dy * np.arange(float(self.shape[0]))
+        found: Array = start + self.dy * np.arange(float(self.shape[0]))
+        if self.crowding:
+            found = np.tanh(self.crowding * found) / math.tanh(self.crowding)
+        return found
+
+    @property
+    def faces(self) -> Array:
+        """Y of the faces of the cells of the stored rows, (rows + 1,); ends are faces."""
+        y = self.y
+        first = -0.5 * y[1] if self.mirror else y[0]
+        return np.concatenate([[first], 0.5 * (y[1:] + y[:-1]), y[-1:]])
 
     @property
     def inner(self) -> tuple[slice, slice]:
@@ -78,10 +98,33 @@ class Grid:
         return self.domain.y == ROLLER_ENDS and self.ny > 1
 
     @property
+    def across(self) -> tuple[Array, Array]:
+        """Weights of the differences to the rows south and north over uniform ones, (rows,) each.
+
+        dy^2 over the width of the cell and the distance of the rows; without elements if uniform.
+        At ends and symmetry lines both rows are one.
+        """
+        if self.crowding == 0.0:
+            return np.zeros(0), np.zeros(0)
+        steps, cells = np.diff(self.y), np.diff(self.faces)
+        south = self.dy**2 / (cells * np.append(steps[:1], steps))
+        north = self.dy**2 / (cells * np.append(steps, steps[-1:]))
+        south[-1] *= 0.5  # the end counts twice, for its own half
+        north[-1] *= 0.5
+        if not self.mirror:
+            south[0] *= 0.5
+            north[0] *= 0.5
+        return south, north
+
+    @property
     def widths(self) -> Array:
         """Width that each stored line stands for, in a_y, (rows,): half of it on both ends."""
         if self.ny == 1:
             return np.array([self.dy])
+        if self.crowding:
+            found = np.diff(self.faces)
+            found[1:] *= 2.0 if self.mirror else 1.0
+            return found
         found = np.full(self.shape[0], (2.0 if self.mirror else 1.0) * self.dy)
         found[[0, -1]] *= 0.5
         return found
@@ -123,6 +166,22 @@ def can_mirror(shape: tuple[int, int], domain: Domain) -> bool:
     ny, nx = shape
     coarsest = halved_grids(Grid(nx=nx, ny=ny, domain=domain, mirror=False))[0]
     return (coarsest.ny - 1) % 2 == 0 and domain.y[0] == -domain.y[1]
+
+
+def crowding(part: float) -> float:
+    """Return c of lines that crowd at the ends of a roller: sinh(2 c) = 2 c / part.
+
+    Parameters
+    ----------
+    part : float
+        Distance of lines at the ends over that of uniform ones; `LEAST_PART` at least.
+    """
+    part, found = max(part, LEAST_PART), 4.0
+    if part >= 1.0:
+        return 0.0
+    for _ in range(CROWDING_STEPS):
+        found = 0.5 * math.asinh(2.0 * found / part)
+    return found
 
 
 def halved_grids(finest: Grid) -> list[Grid]:

@@ -18,6 +18,8 @@ takes up to 1.4 times as much."""
 USABLE_MEMORY_PART, USUAL_MEMORY = 0.5, 1.2e9
 """Part of the free memory that a solve takes unasked, and most [byte]: so the process stays below
 1.5 GB."""
+BYTES_PER_PAIR = 16
+"""Added by a roller per node along x and pair of lines: half of it by the finest grid."""
 USUAL_LAYERS = 9
 NEGLIGIBLE_MEMORY = 16e6
 """Need that any machine running Python can satisfy [byte]: available memory is not checked."""
@@ -37,7 +39,11 @@ def needed_memory(options: Options, problem: ContactProblem | None = None) -> fl
         Heat and time steps need more arrays per node; None is an isothermal steady film.
     """
     nodes_y, nodes_x = options.shape
-    return float(_bytes_per_node(problem) * nodes_y * nodes_x)
+    found = float(_bytes_per_node(problem) * nodes_y * nodes_x)
+    if problem is not None and problem.contact.type == "roller":  # each line bends each other one
+        stored = (nodes_y + 1) // 2 if problem.is_even_in_y else nodes_y
+        found += BYTES_PER_PAIR * nodes_x * stored**2
+    return found
 
 
 def _bytes_per_node(problem: ContactProblem | None) -> float:

@@ -82,6 +82,13 @@ def _of_one_row(problem: ContactProblem, options: Options) -> Options:
     return options.model_copy(update=changes)
 
 
+def is_plain(problem: ContactProblem) -> bool:
+    """Whether the film is one of flooded oil alone, smooth, isothermal, Newtonian and steady."""
+    others = (problem.supply, problem.cavitation, problem.dynamics, problem.asperities)
+    stated = any(one is not None for one in others)
+    return _is_smooth(problem) and not (stated or problem.is_coupled)
+
+
 def _is_smooth(problem: ContactProblem) -> bool:
     """Whether a steady film is smooth on the mesh."""
     rough = problem.is_rough or problem.contact_film is not None

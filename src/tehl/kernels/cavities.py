@@ -16,6 +16,7 @@ from tehl.kernels.reynolds import (
     line_operator,
     row_above,
     row_below,
+    sides,
 )
 
 
@@ -137,9 +138,9 @@ def _flow_into(film: Film, stencil: Stencil, j: int, i: int) -> tuple[float, flo
     """Return the pressure flow into a partly filled cell, and what of it comes back downstream."""
     p, eps_x, eps_y = film.p, film.eps_x, film.eps_y
     south, north, here = row_below(j, p.shape[0]), row_above(j, p.shape[0]), film.p[j, i]
-    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
-    gained = half_y * both(stencil, eps_y[j, i], eps_y[north, i]) * (p[north, i] - here)
-    gained += half_y * both(stencil, eps_y[j, i], eps_y[south, i]) * (p[south, i] - here)
+    half_x, (half_s, half_n) = 0.5 * stencil.cx, sides(film, stencil, j)
+    gained = half_n * both(stencil, eps_y[j, i], eps_y[north, i]) * (p[north, i] - here)
+    gained += half_s * both(stencil, eps_y[j, i], eps_y[south, i]) * (p[south, i] - here)
     gained += half_x * both_x(stencil, eps_x[j, i - 1], eps_x[j, i]) * (p[j, i - 1] - here)
     from_east = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1]) * (p[j, i + 1] - here)
     back = 0.0 if film.partial[j, i + 1] else from_east

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import CLOSED, STEADILY, Stencil, both, flux_weights, inner_end
+from tehl.kernels.reynolds import STEADILY, Stencil, both, flux_weights, inner_end
 
 # part of a change of the pressure that asperities take by the film it moves
 NEGLIGIBLE_COARSE_PART = 1e-6
@@ -46,20 +46,22 @@ class Coarse(NamedTuple):
     lift: Array
     speed: Array
     drift: Array
+    south: Array
+    north: Array
 
 
 class CoarseSystem(NamedTuple):
     """The equations to solve.
 
     ``residual`` (ny, nx) of the Reynolds equation, ``influence`` (n, n), ``frozen`` (ny, nx) of 0
-    and 1, ``area`` of a cell, the load that is missing, and the
+    and 1, ``area`` (ny, nx) that each node stands for, the load that is missing, and the
     largest change of the rigid approach with asperities.
     """
 
     residual: Array
     influence: Array
     frozen: FlagArray
-    area: float
+    area: Array
     missing_load: float
     nearest: float
     yielding: float
@@ -156,6 +158,8 @@ def _add_face(state: Coarse, stencil: Stencil, work: Work, n: int) -> None:
     near, by_p, by_h = work.near, work.by_p, work.by_h
     here, there, along = near[HERE], near[n], n <= WEST
     c = 0.5 * (stencil.cx if along else stencil.cy)
+    if state.south.shape[0] > 0 and not along:
+        c *= state.north[here] if n == NORTH else state.south[here]
     mine = c * (state.stretch_x[here] if along else state.stretch_y[here])
     theirs = c * (state.stretch_x[there] if along else state.stretch_y[there])
     face = mine * state.eps[here] + theirs * state.eps[there]
@@ -294,12 +298,8 @@ def _assemble(
             work.matrix[row, column] = work.full[work.free[column]]
         work.rhs[row] = system.residual[here]
     for column in range(count):
-        line = work.free[column] // nx
-        weight = 2.0 if stencil.mirror % CLOSED else 1.0
-        weight *= 0.5 if line == 0 else 1.0
-        weight *= 0.5 if 0 < line == state.p.shape[0] // nx - 1 else 1.0  # a closed end
-        part = state.lift[work.free[column]]
-        work.matrix[count, column] = system.area * part * weight
+        here = work.free[column]
+        work.matrix[count, column] = system.area[here] * state.lift[here]
     work.matrix[count, count] = -system.yielding
     work.rhs[count] = system.missing_load
 

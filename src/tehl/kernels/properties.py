@@ -48,6 +48,9 @@ class Film(NamedTuple):
     Where the surfaces spin, ``speed`` (ny,) is the mean speed along x of each row over that at the
     centre, and ``drift`` (nx,) that along y of each column, times dx/(kappa dy): with it the
     differences along y have the weights of those along x. Without spin they have no elements.
+
+    Where lines crowd at the ends of a roller, ``south`` and ``north`` (ny,) are the weights of the
+    differences to the rows beside over those of uniform rows, else without elements.
     """
 
     p: Array
@@ -68,6 +71,8 @@ class Film(NamedTuple):
     carried: Array = np.zeros((0, 0))
     speed: Array = np.zeros(0)
     drift: Array = np.zeros(0)
+    south: Array = np.zeros(0)
+    north: Array = np.zeros(0)
 
 
 class Factors(NamedTuple):

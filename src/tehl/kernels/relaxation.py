@@ -37,6 +37,7 @@ from tehl.kernels.reynolds import (
     line_operator,
     row_above,
     row_below,
+    sides,
 )
 
 Span = tuple[int, int]
@@ -115,12 +116,13 @@ def mark_dipoles(film: Film, stencil: Stencil, relaxation: LineRelaxation) -> No
     clear(kind)
     for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
         south, north = row_below(j, ny), row_above(j, ny)
+        half_s, half_n = sides(film, stencil, j)
         for i in range(1, relaxation.ends[j]):
             along = max(eps_x[j, i], eps_x[j, i - 1], eps_x[j, i + 1])
             smallest = min(abs(p[j, i]), abs(p[j, i - 1]), abs(p[j, i + 1]))
             if relaxation.apart:
-                faces = eps_y[j, i] * max(eps_y[south, i], eps_y[north, i])
-                across = sqrt(faces) * stencil.cy / stencil.cx
+                faces = max(half_s**2 * eps_y[south, i], half_n**2 * eps_y[north, i])
+                across = 2.0 * sqrt(eps_y[j, i] * faces) / stencil.cx
             else:
                 across = max(eps_y[j, i], eps_y[south, i], eps_y[north, i])
                 smallest = min(smallest, abs(p[south, i]), abs(p[north, i]))
@@ -143,14 +145,16 @@ def stiffen(film: Film, stencil: Stencil, flow: FlowTable, out: Array) -> None:
     clear(out)
     for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
         south, north = row_below(j, ny), row_above(j, ny)
+        half_s, half_n = sides(film, stencil, j)
         for i in range(1, nx - 1):
             p = film.p[j, i]
             k = int(min(p / step, last)) if p > 0.0 else 0
             decay = max(-table[k, 1] / (table[k, 0] * step), 0.0)
             along = max(film.p[j, i - 1] - p, 0.0) + max(film.p[j, i + 1] - p, 0.0)
-            across = max(film.p[south, i] - p, 0.0) + max(film.p[north, i] - p, 0.0)
-            slope = stencil.cx * film.eps_x[j, i] * along + stencil.cy * film.eps_y[j, i] * across
-            out[j, i] = 0.5 * decay * slope
+            across = half_s * max(film.p[south, i] - p, 0.0)
+            across += half_n * max(film.p[north, i] - p, 0.0)
+            slope = 0.5 * stencil.cx * film.eps_x[j, i] * along + film.eps_y[j, i] * across
+            out[j, i] = decay * slope
 
 
 @helper
@@ -191,10 +195,10 @@ def _load_node(
     (j, i), (at, lane), ny = node, place, film.p.shape[0]
     south, north = row_below(j, ny), row_above(j, ny)
     eps_x, eps_y, cells, rest = film.eps_x, film.eps_y, relaxation.cells, relaxation.rest
-    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
+    half_x, (half_s, half_n) = 0.5 * stencil.cx, sides(film, stencil, j)
     cells[at, EAST, lane] = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
-    across = both(stencil, eps_y[j, i], eps_y[north, i])
-    across = half_y * (across + both(stencil, eps_y[j, i], eps_y[south, i]))
+    across = half_n * both(stencil, eps_y[j, i], eps_y[north, i])
+    across += half_s * both(stencil, eps_y[j, i], eps_y[south, i])
     cells[at, ACROSS, lane] = across + relaxation.stiffness[j, i]
     cells[at, MASS_P, lane] = film.drho[j, i] * film.h[j, i]
     cells[at, RHO, lane] = film.rho[j, i]

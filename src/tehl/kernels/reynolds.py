@@ -103,6 +103,15 @@ def both_x(stencil: Stencil, west: float, east: float) -> float:
 
 
 @helper
+def sides(film: Film, stencil: Stencil, j: int) -> tuple[float, float]:
+    """Return half the weights of the differences from row ``j`` to the rows south and north."""
+    half = 0.5 * stencil.cy
+    if film.south.shape[0] > 0:
+        return half * film.south[j], half * film.north[j]
+    return half, half
+
+
+@helper
 def clear(field: Array | FlagArray) -> None:
     """Fill a field with zeros."""
     ny, nx = field.shape
@@ -132,15 +141,15 @@ def _line_flow(film: Film, stencil: Stencil, j: int, out: Array, place: tuple[in
     """Write the pressure flow into each cell of line ``j`` to ``out``."""
     p, eps_x, eps_y, (row, end) = film.p, film.eps_x, film.eps_y, place
     south, north = row_below(j, p.shape[0]), row_above(j, p.shape[0])
-    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
+    half_x, (half_s, half_n) = 0.5 * stencil.cx, sides(film, stencil, j)
     for i in range(1, end):
         east = both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
         west = both_x(stencil, eps_x[j, i - 1], eps_x[j, i])
         upper = both(stencil, eps_y[j, i], eps_y[north, i])
         lower = both(stencil, eps_y[j, i], eps_y[south, i])
         flow_x = east * (p[j, i + 1] - p[j, i]) - west * (p[j, i] - p[j, i - 1])
-        flow_y = upper * (p[north, i] - p[j, i]) - lower * (p[j, i] - p[south, i])
-        out[row, i] = half_x * flow_x + half_y * flow_y
+        flow_y = half_n * upper * (p[north, i] - p[j, i]) - half_s * lower * (p[j, i] - p[south, i])
+        out[row, i] = half_x * flow_x + flow_y
 
 
 @helper
@@ -331,10 +340,10 @@ def _node_diagonal(film: Film, stencil: Stencil, self_film: float, j: int, i: in
     along = both_x(stencil, eps_x[j, i], eps_x[j, i + 1]) + both_x(
         stencil, eps_x[j, i - 1], eps_x[j, i]
     )
-    across = both(stencil, eps_y[j, i], eps_y[north, i]) + both(
-        stencil, eps_y[j, i], eps_y[south, i]
-    )
-    flow = 0.5 * stencil.cx * along + 0.5 * stencil.cy * across
+    half_s, half_n = sides(film, stencil, j)
+    across = half_n * both(stencil, eps_y[j, i], eps_y[north, i])
+    across += half_s * both(stencil, eps_y[j, i], eps_y[south, i])
+    flow = 0.5 * stencil.cx * along + across
     if film.speed.shape[0] > 0:
         w0 = stencil.w0 * (abs(film.speed[j]) + abs(film.drift[i]))
         return flow + w0 * (film.drho[j, i] * film.h[j, i] + film.rho[j, i] * self_film)
@@ -412,9 +421,10 @@ def tangent_source(film: Film, stencil: Stencil, out: Array) -> None:
     clear(out)
     p, eps, eps_x, eps_y = film.p, film.eps, film.eps_x, film.eps_y
     ny, nx = p.shape
-    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
+    half_x = 0.5 * stencil.cx
     for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
         south, north = row_below(j, ny), row_above(j, ny)
+        half_s, half_n = sides(film, stencil, j)
         for i in range(1, nx - 1):
             east = both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
             east -= both_x(stencil, eps[j, i], eps[j, i + 1])
@@ -425,5 +435,6 @@ def tangent_source(film: Film, stencil: Stencil, out: Array) -> None:
             lower = both(stencil, eps_y[j, i], eps_y[south, i])
             lower -= both(stencil, eps[j, i], eps[south, i])
             flow_x = east * (p[j, i + 1] - p[j, i]) - west * (p[j, i] - p[j, i - 1])
-            flow_y = upper * (p[north, i] - p[j, i]) - lower * (p[j, i] - p[south, i])
-            out[j, i] = half_x * flow_x + half_y * flow_y
+            flow_y = half_n * upper * (p[north, i] - p[j, i])
+            flow_y -= half_s * lower * (p[j, i] - p[south, i])
+            out[j, i] = half_x * flow_x + flow_y

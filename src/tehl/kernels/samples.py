@@ -79,7 +79,7 @@ def _axes(count: int, *names: str) -> dict[str, int]:
 
 
 def _sample(kernel: Callable[..., Any], seconds: float, **arrays: Any) -> Sample:
-    lines = _axes(1, "layer", "ends", "speed", "drift")
+    lines = _axes(1, "layer", "ends", "speed", "drift", "south", "north")
     return Sample(kernel, seconds, lines | arrays)
 
 
@@ -93,7 +93,9 @@ ISOTHERMAL = (
         _sample(
             step,
             1.0,
-            **_axes(1, *coarsest.Coarse._fields, *coarsest.Work._fields, "residual", "frozen")
+            **_axes(
+                1, *coarsest.Coarse._fields, *coarsest.Work._fields, "residual", "frozen", "area"
+            )
             | _axes(2, "matrix"),
         )
         for step in (coarsest.fill_step, coarsest.take_step)

@@ -4,7 +4,6 @@ Conjugate gradients with the load as a constraint (Polonsky and Keer, Wear 231 (
 descent is the gap less its mean over the contact, and nodes of negative pressure leave it.
 """
 
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -29,13 +28,12 @@ def dry_roller(grid: Grid, groups: Groups) -> Array:
     grid, groups : Grid, Groups
         Nodes, and the roller under its load.
     """
-    whole = replace(grid, mirror=False)
-    shape, load, deformation = groups.shape, Load(whole), choose("fft", whole, groups)
-    undeformed = gap(whole, groups)
+    shape, load, deformation = groups.shape, Load(grid), choose("fft", grid, groups)
+    undeformed = gap(grid, groups)
     inside = np.zeros(undeformed.shape, bool)
     inside[:, 1:-1] = True
-    weight = whole.widths[:, None]
-    p = np.where(inside, shape.dry_pressure(whole.x[None, :], whole.y[:, None]), 0.0)
+    weight = grid.widths[:, None]
+    p = np.where(inside, shape.dry_pressure(grid.x[None, :], grid.y[:, None]), 0.0)
     p *= shape.load / load.integral(p)
     rest, bent, step = (
         np.empty_like(undeformed),
@@ -61,9 +59,8 @@ def dry_roller(grid: Grid, groups: Groups) -> Array:
         conjugate, before = 0.0 if missed.any() else 1.0, square
         if float(np.abs(p - last).sum()) < DRY_CHANGE * float(p.sum()):
             break
-    found = p[grid.ny // 2 :] if grid.mirror else p
-    found.flags.writeable = False
-    return np.asarray(found)
+    p.flags.writeable = False
+    return p
 
 
 def dry_pressure(grid: Grid, groups: Groups) -> Array:

@@ -327,7 +327,8 @@ def pressure_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array,
         Dimensionless.
     """
     slope_x = _slope_along(pressure.T, grid.dx).T
-    slope_y = _slope_along(pressure, groups.ellipticity * grid.dy)
+    steps = np.gradient(grid.y, edge_order=2)[:, None] if grid.crowding else grid.dy
+    slope_y = _slope_along(pressure, groups.ellipticity * steps)
     if grid.mirror:
         slope_y[0] = 0.0
     return slope_x, slope_y
@@ -362,7 +363,7 @@ def driving_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array, 
     return slope_x, slope_y
 
 
-def _slope_along(field: Array, spacing: float) -> Array:
+def _slope_along(field: Array, spacing: float | Array) -> Array:
     """Return the derivative along the first axis, of second order; `numpy.gradient` is slower."""
     if len(field) == 1:  # of a line contact
         return np.zeros_like(field)

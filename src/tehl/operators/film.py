@@ -25,8 +25,8 @@ def gap(grid: Grid, groups: Groups, curvature: float = 1.0) -> Array:
     x, y = grid.x[None, :], grid.y[:, None]
     found = groups.shape.gap(x, y)
     if groups.roller is not None:  # the mean over a line: at the ends a profile is steep
-        places = np.add.outer(grid.dy * PLACES, grid.y)
-        places = np.sign(places) * (1.0 - np.abs(1.0 - np.abs(places)))  # half a line at the ends
+        faces = grid.faces
+        places = faces[:-1] + np.outer(PLACES + 0.5, np.diff(faces))
         rise = groups.roller.rise(places).mean(axis=0) - groups.roller.rise(grid.y)
         found = found + rise[:, None]
     return found if curvature == 1.0 else found + 0.5 * (curvature - 1.0) * x**2

@@ -58,6 +58,31 @@ class Influence:
         cells: Array = np.diff(np.diff(_corner(u, v), axis=0), axis=1)
         return self.factor * cells
 
+    def between(self, grid: Grid) -> Array:
+        """Return the influence of the cells of lines that crowd, (to, from, column offset).
+
+        Those of the ends have half a width; on half a domain with the mirror image.
+        """
+        stretch = self.dy / grid.dy
+        u = self.dx * (np.arange(grid.nx + 1.0) - 0.5)
+        faces, y = stretch * grid.faces, stretch * grid.y
+        lines = np.empty((y.size, y.size, grid.nx))
+        for line, place in zip(lines, y, strict=True):
+            line[:] = self._of_cells(u, faces - place)
+            if grid.mirror:
+                line[1:] += self._of_cells(u, faces[1:] + place)
+        # the work of one line on another is that of the other on it, so that it makes no moment
+        work = lines * grid.widths[:, None, None]
+        found = 0.5 * (work + work.transpose(1, 0, 2)) / grid.widths[:, None, None]
+        ends = [-1] if grid.mirror else [0, -1]  # not in the middle of their cells
+        found[ends] = lines[ends]
+        return np.asarray(found)
+
+    def _of_cells(self, u: Array, v: Array) -> Array:
+        """Return the influence of cells between the corners u and v."""
+        cells: Array = np.diff(np.diff(_corner(u, v[:, None]), axis=0), axis=1)
+        return self.factor * cells
+
 
 class LineInfluence(Influence):
     """Influence in a line contact: -ln x^2 in place of 1/r; other rows than its own have none.
@@ -102,8 +127,9 @@ def _offsets(nodes: "ArrayLike | slice") -> Array:
 
 
 def _corner(u: Array, v: Array) -> Array:
-    """Antiderivative of 1/r over both coordinates; u, v are not zero, as corners lie off axes."""
-    return u * np.arcsinh(v / np.abs(u)) + v * np.arcsinh(u / np.abs(v))
+    """Antiderivative of 1/r over both coordinates; u is not zero, v is only at ends."""
+    least = np.where(v == 0.0, 1.0, np.abs(v))
+    return u * np.arcsinh(v / np.abs(u)) + v * np.arcsinh(u / least)
 
 
 def influence_of(grid: Grid, groups: Groups) -> Influence:
@@ -129,6 +155,10 @@ def matrix_of(grid: Grid, influence: Influence) -> Array:
     grid, influence : Grid, Influence
         The nodes, and the influence at their offsets.
     """
+    if grid.crowding:
+        lines, i = influence.between(grid), np.arange(grid.nx)
+        blocks = lines[:, :, np.abs(i[:, None] - i)].transpose(0, 2, 1, 3)
+        return blocks.reshape(2 * (lines.shape[0] * grid.nx,))
     found = dense_matrix(grid.shape, grid.mirror, influence)
     if grid.is_closed:  # as in `tehl.operators.deformation.BetweenEnds`
         found[:, -grid.nx :] *= 0.5

@@ -239,8 +239,12 @@ def _sides(
     """Return the neighbour, weight, conductance and way along x of the four faces of a cell."""
     eps_x, eps_y = film.eps_x.ravel(), film.eps_y.ravel()
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
+    south, north = (
+        half_y * np.repeat(one, film.p.shape[1]) if one.size else half_y
+        for one in (film.south, film.north)
+    )
     return ((n.east, half_x, eps_x, 1), (n.west, half_x * n.open_west, eps_x, -1),
-            (n.north, half_y, eps_y, 0), (n.south, half_y, eps_y, 0))  # fmt: skip
+            (n.north, north, eps_y, 0), (n.south, south, eps_y, 0))  # fmt: skip
 
 
 def _both(stencil: Stencil, here: Array, there: Array, way: int) -> Array:

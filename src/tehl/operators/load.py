@@ -10,11 +10,15 @@ class Load:
     def __init__(self, grid: Grid) -> None:
         self.area = grid.dx * grid.dy
         self.mirror, self.is_line = grid.mirror, grid.ny == 1
+        self.widths = grid.dx * grid.widths if grid.crowding else None
 
     def integral(self, pressure: Array) -> float:
         """Return the load carried by ``pressure`` [-], by the trapezoidal rule."""
         if self.is_line:
             return _row(pressure[0]) * self.area
+        if self.widths is not None:
+            ends = 0.5 * (pressure[:, 0] + pressure[:, -1])
+            return float(self.widths @ (pressure.sum(axis=1) - ends))
         total = float(pressure.sum()) - 0.5 * float(pressure[:, 0].sum() + pressure[:, -1].sum())
         # each row beside the last one counts twice, where the half domain is stored
         last, first = 0.5 * _row(pressure[-1]), 0.5 * _row(pressure[0])

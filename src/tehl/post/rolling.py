@@ -12,6 +12,7 @@ import numpy as np
 from tehl.contact.options import Domain
 from tehl.estimate.grid import Grid
 from tehl.operators.upstream import nothing, rolling, upstream_of
+from tehl.post.traction import cell_widths
 from tehl.result.solution import Solution
 
 
@@ -41,6 +42,7 @@ def rolling_friction(result: Solution) -> Rolling | None:
     scales, groups, here = result.scales, result.groups, result.scaled
     ends = Domain.model_construct(x=(float(here.x[0]), float(here.x[-1])), y=groups.shape.sides)
     grid = Grid(nx=here.x.size, ny=here.y.size, domain=ends, mirror=False)
+    widths = cell_widths(here.y) if grid.ny > 1 else grid.widths
     upstream = nothing(grid)
     if result.oil is None or result.oil.fill[0, 0] == 1.0:  # the oil reaches further upstream
         peaks = result.pressure.argmax(axis=1)[:, None]
@@ -48,7 +50,7 @@ def rolling_friction(result: Solution) -> Rolling | None:
         density = problem.lubricant.density.density(largest, scales.temperature) / scales.density
         oil = (density * np.take_along_axis(here.film, peaks, axis=1))[:, 0]
         upstream = upstream_of(grid, here.film, oil, result.scaled_problem.entering)
-    flow, ratio = rolling(here.x, here.pressure, here.film, upstream, grid.widths)
+    flow, ratio = rolling(here.x, here.pressure, here.film, upstream, widths)
     force = 0.5 * flow * scales.hertz_pressure * scales.film_thickness * scales.half_width_y
     arm = flow * scales.hertz_pressure * scales.half_width_x**2 * scales.half_width_y
     load = problem.shape.load_unit(problem.radius_x, problem.reduced_modulus)
@@ -56,7 +58,7 @@ def rolling_friction(result: Solution) -> Rolling | None:
         force=force,
         moment=arm,
         shift=arm / result.load,
-        tail_share=float(upstream.rolling @ grid.widths) / flow,
+        tail_share=float(upstream.rolling @ widths) / flow,
         closure_error=ratio - 1.0,
         T=force / load * groups.W**-1.5,
     )

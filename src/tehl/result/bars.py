@@ -1,5 +1,6 @@
 """Error bars: of a certified result, from its grids, and those that each result estimates."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
@@ -71,6 +72,10 @@ class ErrorEstimate:
     """Whether the largest pressure will stay the largest on finer grids: if not, the pressure spike
     is narrower than the mesh and may exceed it."""
 
+    minimum_has_limit: bool = True
+    """Whether the minimum film has a limit on finer grids, and so an error bar: not where it lies
+    at the sharp end of a roller, under a pressure that has none."""
+
     @property
     def central(self) -> float:
         """Error bar of the central film, all parts together [-]."""
@@ -78,8 +83,14 @@ class ErrorEstimate:
 
     @property
     def minimum(self) -> float:
-        """Error bar of the minimum film, all parts together [-]."""
+        """Error bar of the minimum film, all parts together [-]; NaN without a limit."""
+        if not self.minimum_has_limit:
+            return math.nan
         return self.discretisation_minimum + self.iteration_minimum + self.domain + self.supply
+
+    def film(self, part: float = 1.0) -> float:
+        """Return the larger error bar of both films, that of the minimum times ``part`` [-]."""
+        return max(self.central, part * self.minimum) if self.minimum_has_limit else self.central
 
     def at(self, path: str) -> float | None:
         """Return the error bar of the quantity at a place of the summary, None if it is missing."""
@@ -87,8 +98,9 @@ class ErrorEstimate:
 
     def of(self, name: str) -> float | None:
         """Return the error bar called ``name``, that of a film too; None if it is missing."""
-        films = {"film_central": self.central, "film_minimum": self.minimum}
-        return films.get(name, self.bars.get(name))
+        if name == "film_minimum":
+            return self.minimum if self.minimum_has_limit else None
+        return self.central if name == "film_central" else self.bars.get(name)
 
 
 def _bar(name: str) -> property:

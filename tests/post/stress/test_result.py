@@ -13,9 +13,10 @@ from tehl.contact.boundary_contact import ContactFilm
 from tehl.contact.stress import Stress
 from tehl.io.export import export
 from tehl.post.stress.below import March, stress_below
-from tehl.post.stress.loads import loads_on
+from tehl.post.stress.loads import loads_on, on_even_lines
 from tehl.post.stress.moving import frame_loads, moving_stress
 from tehl.post.stress.numbers import stress_numbers
+from tehl.post.traction import cell_widths
 from tehl.result.fields import FilmContact, FilmShear
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_rough import PRESSURE, WAVELENGTH, make_rough
@@ -198,6 +199,10 @@ def test_a_roller_is_compared_with_its_dry_slices():
         ),
         tehl.Options(points=(129, 65)),
     )
+    even = on_even_lines(rolling)
+    loads = [cell_widths(one.scaled.y) @ one.scaled.pressure for one in (even, rolling)]
+    assert np.diff(even.scaled.y) == pytest.approx(1 / 32)
+    assert loads[0] == pytest.approx(loads[1], abs=0.01 * loads[1].max())
     body = stress_numbers(rolling.with_stress(depths=10, body=1)).of(1)
     assert body.shear_ratio == pytest.approx(1.0, abs=0.1)
     assert 0.2 < body.life_ratio < 5.0

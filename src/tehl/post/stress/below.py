@@ -15,7 +15,7 @@ from tehl.post.stress.heated import (
     thermal_stress_of,
 )
 from tehl.post.stress.influence import COMPONENTS, HalfSpace, Influence, Spectra, Steps
-from tehl.post.stress.loads import SurfaceLoads, left_out, loads_on, parts_of_cells
+from tehl.post.stress.loads import SurfaceLoads, left_out, loads_on, on_even_lines, parts_of_cells
 from tehl.post.stress.measures import Worst, largest_shear, worst
 from tehl.post.stress.thermal import Heated
 from tehl.post.stress.window import Window, cut, depths_of, halved, middle_row, wake, window_of
@@ -70,7 +70,7 @@ def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress
         The table ``[stress]``; that of the case by default, or the defaults.
     """
     settings = settings or result.problem.stress or Stress()
-    without_shear = left_out(result)
+    result, without_shear = on_even_lines(result), left_out(result)
     loads = [loads_on(result, body, without_shear=without_shear) for body in settings.bodies]
     window = window_of(result, loads[0].pressure)
     depths, sides = depths_of(result, settings, window), wake(result, settings, window)

@@ -1,5 +1,6 @@
 """What acts on the surface of each body: pressure and traction of film, asperities and contact."""
 
+from dataclasses import fields, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -8,6 +9,9 @@ from tehl.base.typing import Array
 from tehl.post.boundary_contact import touching_nodes
 from tehl.post.traction import sliding_direction, traction
 from tehl.result.solution import Solution
+
+PLACES = 32
+"""Places across a line over which the mean of its loads is taken."""
 
 
 class SurfaceLoads(NamedTuple):
@@ -18,6 +22,29 @@ class SurfaceLoads(NamedTuple):
     traction_x: Array
     traction_y: Array
     """Force on the body over area."""
+
+
+def on_even_lines(result: Solution) -> Solution:
+    """Return a result on as many even lines: those of a roller crowd at its ends.
+
+    Each has the mean over its cell, linear between the lines of the result, so that the load stays.
+    """
+    y = result.scaled.y
+    even = np.linspace(y[0], y[-1], y.size)
+    if np.allclose(y, even, rtol=0.0, atol=1e-9):
+        return result
+    faces = np.concatenate([even[:1], 0.5 * (even[1:] + even[:-1]), even[-1:]])
+    places = faces[:-1] + np.outer((np.arange(PLACES) + 0.5) / PLACES, np.diff(faces))
+    weights = np.array([np.interp(places, y, one).mean(axis=0) for one in np.eye(y.size)]).T
+    changes: dict[str, object] = {}
+    for name in ("scaled", "shear"):
+        value = getattr(result, name)
+        if value is not None:
+            known = {one.name: getattr(value, one.name) for one in fields(value)}
+            maps = {key: weights @ one for key, one in known.items() if np.ndim(one) == 2}
+            changes[name] = replace(value, **maps)
+    changes["scaled"] = replace(changes["scaled"], y=even)  # type: ignore[type-var]
+    return result.but(**changes)
 
 
 def loads_on(result: Solution, body: int, *, without_shear: bool | None = None) -> SurfaceLoads:
@@ -89,5 +116,5 @@ def _rolling_across(result: Solution, pressure: Array) -> Array:
     """Return (h/2) dp/dy [Pa], by which the stress along y falls from mid-film to a surface."""
     if pressure.shape[0] == 1:
         return np.zeros_like(pressure)
-    slope = np.gradient(pressure, result.y[1] - result.y[0], axis=0)
+    slope = np.gradient(pressure, result.y, axis=0)
     return np.asarray(0.5 * result.film_thickness * slope)

@@ -85,7 +85,7 @@ class CoarsestSolver:
             residual=residual_of(level).ravel(),
             influence=self.influence,
             frozen=level.smoother.frozen.ravel(),
-            area=level.equations.load.area,
+            area=np.repeat(level.grid.widths * level.grid.dx, level.grid.nx),
             missing_load=level.missing_load(),
             yielding=0.0 if answer is None else answer.stiffness,
             nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),

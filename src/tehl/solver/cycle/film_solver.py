@@ -137,8 +137,8 @@ class FilmSolver(GridIteration):
                 continue
             known = self.traces[: number + 1]
             errors = estimated_errors(level, known, self.roughness, self.hierarchy)
-            if errors is not None and max(errors.central, errors.minimum) < TOO_COARSE:
-                return level.grid.points, max(errors.central, errors.minimum)
+            if errors is not None and errors.film() < TOO_COARSE:
+                return level.grid.points, errors.film()
         return None
 
     def minimum_part(self) -> float:

@@ -16,6 +16,10 @@ from tehl.solver.cycle.relaxation import Relaxation, make_smoother
 from tehl.solver.physics.cavity import cavity_of
 from tehl.solver.physics.share import FILM_PER_PRESSURE, share_of
 
+AT_ENDS = (1.0, 0.3)
+"""The correction where lines crowd at the ends of a roller: the coarser grids, with cells much
+shorter along y than along x there, overshoot at single nodes by factors of up to ten."""
+
 
 class Level:
     """One grid with its unknowns.
@@ -36,7 +40,8 @@ class Level:
         self.share = share_of(equations)
         self.film = self.share.extend(self.film)
         speed, drift = equations.entrainment
-        self.film = self.film._replace(speed=speed, drift=drift)
+        south, north = equations.grid.across
+        self.film = self.film._replace(speed=speed, drift=drift, south=south, north=north)
         # of the mean planes: the film itself where no solids carry load
         self.separation = np.zeros(shape) if self.film.asperity.size else h
         self.rigid_approach = 0.0
@@ -46,7 +51,7 @@ class Level:
         self.total = np.zeros(shape)  # pressure of oil and asperities
         self.heights: Array | None = None
         # of the correction of the next finer grid: factor, and limit of its relative change of P
-        self.correction = relaxation.correction
+        self.correction = AT_ENDS if equations.grid.crowding else relaxation.correction
         self.factors: properties.Factors | None = None
         self.is_stale = True
 

@@ -68,6 +68,8 @@ def linearised(level: Level) -> Coarse:
         lift=ones if answer is None else answer.lift,
         speed=film.speed,
         drift=film.drift,
+        south=np.repeat(film.south, film.p.shape[1]),
+        north=np.repeat(film.north, film.p.shape[1]),
     )
 
 

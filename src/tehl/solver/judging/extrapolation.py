@@ -5,7 +5,6 @@ from typing import TypeVar
 
 import numpy as np
 
-from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState
 from tehl.result.fields import Fields, HeatBalance
@@ -52,7 +51,7 @@ def outputs_of(
             shear = newtonian_shear(level, scaled)
         elif state is not None and state.grid == grid:
             shear, heat = film_shear(state), film_heat(state)
-    full = Grid(nx=grid.nx, ny=grid.ny, domain=grid.domain, mirror=False)
+    full = replace(grid, mirror=False)
     return Outputs(
         fields=Fields(
             x=full.x,

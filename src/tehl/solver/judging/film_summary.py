@@ -1,5 +1,6 @@
 """Central and minimum film, interpolated between the nodes of a grid."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -30,6 +31,8 @@ def central_value(grid: Grid, field: Array) -> float:
     columns, column_weights = _lagrange(grid.x, grid.dx)
     if grid.mirror:
         return float(field[0, columns] @ column_weights)
+    if grid.crowding and grid.ny % 2:
+        return float(field[grid.ny // 2, columns] @ column_weights)
     rows, row_weights = _lagrange(grid.y, grid.dy)
     return float(row_weights @ field[np.ix_(rows, columns)] @ column_weights)
 
@@ -64,13 +67,14 @@ def film_summary(grid: Grid, film: Array, least: float | None = None) -> FilmSum
         Boundary film H, the minimum between nodes that touch; None where surfaces do not touch.
     """
     full = grid.unfold(film)
-    row = grid.y if grid.ny == 1 else grid.domain.y[0] + grid.dy * np.arange(grid.ny)
+    row = replace(grid, mirror=False).y
     j, i = (int(n) for n in np.unravel_index(int(full.argmin()), full.shape))
     # `SPLINE_NODES` nodes on each side of (j, i), symmetrically fewer near edges
     across, along = min(SPLINE_NODES, j, grid.ny - 1 - j), min(SPLINE_NODES, i, grid.nx - 1 - i)
     patch = full[j - across : j + across + 1, i - along : i + along + 1]
     minimum, (shift_y, shift_x) = subgrid_minimum(patch)
-    at_y, floor = float(row[j] + shift_y * grid.dy), -np.inf if least is None else least
+    at_y = float(np.interp(j + shift_y, np.arange(row.size), row))
+    floor = -np.inf if least is None else least
     return FilmSummary(
         central=max(central_value(grid, film), floor),
         minimum=max(minimum, floor),

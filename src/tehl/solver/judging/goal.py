@@ -21,6 +21,7 @@ from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.convergence import GridTrace
 from tehl.solver.judging.grid_errors import error_estimate, single_grid_estimate
+from tehl.solver.judging.measures import is_thinnest_at_end
 
 FACTOR = 5.0
 """Expected time on a grid over that on the next coarser one, which has a quarter of its nodes."""
@@ -61,7 +62,11 @@ def estimated_errors(
         The contact, and the order of the wedge.
     """
     found = _by_grids(level, traces, roughness, hierarchy)
-    return found and replace(found, supply=supply_error(hierarchy.scaled))
+    return found and replace(
+        found,
+        supply=supply_error(hierarchy.scaled),
+        minimum_has_limit=not is_thinnest_at_end(level),
+    )
 
 
 def _by_grids(
@@ -180,7 +185,7 @@ class Goal:
         """
         if errors is None:
             return False
-        return max(errors.central, part * errors.minimum) <= (error or self.options.target)
+        return errors.film(part) <= (error or self.options.target)
 
     @property
     def is_over(self) -> bool:

@@ -22,6 +22,8 @@ TAIL_ERROR, TAIL_OF_ZERO_EDGE = 0.002, 0.03
 """Error of the rolling moment by the oil upstream of the grid, over what that adds: twice that of
 14 lines (M = 5 to 200, L = 0 to 15) against boxes from X = -20; where the edge has no pressure, the
 film lacks that oil too."""
+LOADED_END = 0.1
+"""Largest pressure at the end of a roller, in Hertz pressures, beyond which the end is loaded."""
 Part = Literal["x", "y", "z"]
 SPIKE_FROM = 0.5
 """X downstream of which the pressure spike is searched, in Hertz half-widths."""
@@ -108,6 +110,17 @@ def film_numbers(level: Level) -> dict[str, float]:
     """Return ``film_central`` and ``film_minimum`` between the nodes [-]."""
     film = film_summary(level.grid, level.film.h, level.equations.contact_film)
     return {"film_central": film.central, "film_minimum": film.minimum}
+
+
+def is_thinnest_at_end(level: Level) -> bool:
+    """Whether the film is thinnest at the end of a roller, and the oil there under pressure.
+
+    Its pressure has no limit at a sharp end, and the film has none either.
+    """
+    film, grid = level.film, level.grid
+    row = int(film.h.min(axis=1).argmin())
+    ends = (grid.shape[0] - 1,) if grid.mirror else (0, grid.shape[0] - 1)
+    return grid.is_closed and row in ends and float(film.p[row].max()) > LOADED_END
 
 
 def solid_friction(level: Level) -> float:

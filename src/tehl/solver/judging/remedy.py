@@ -59,7 +59,7 @@ def solved_on_other_nodes(
         with suppress(TehlError):
             found = solve(failed.problem, options)
             errors = found.errors
-            error = math.inf if errors is None else max(errors.central, errors.minimum)
+            error = math.inf if errors is None else errors.film()
             if found.status.converged and error <= failed.options.target:
                 return found
     return None
@@ -111,7 +111,7 @@ def _tried(settings: Settings, solve: Callable[[], Solution]) -> Hint | None:
         return None
     if not result.status.converged or result.errors is None:
         return None
-    (ny, nx), error = result.scaled.film.shape, max(result.errors.central, result.errors.minimum)
+    (ny, nx), error = result.scaled.film.shape, result.errors.film()
     advice = f"{grid_size((nx, ny))} then converge to an error of {percentage(error)}."
     return Hint(advice, settings)
 

@@ -125,9 +125,28 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
         )
     if errors is None:
         return CONVERGED
-    error = max(errors.discretisation_minimum, errors.discretisation_central)
-    return (
-        CONVERGED if error <= LARGEST_FILM_BAR else too_coarse(points, run.hierarchy.scaled, error)
+    error = errors.discretisation_central
+    if errors.minimum_has_limit:
+        error = max(error, errors.discretisation_minimum)
+    if error > LARGEST_FILM_BAR:
+        return too_coarse(points, run.hierarchy.scaled, error)
+    return CONVERGED if errors.minimum_has_limit else _without_limit(level)
+
+
+def _without_limit(level: Level) -> Status:
+    """Return ``converged`` with a warning: the minimum lies at a sharp end under pressure."""
+    smallest, _, y = thinnest(level)
+    return Status(
+        kind="converged",
+        message=(
+            f"The film is thinnest (H = {smallest:.3g}) at the sharp end Y = {y:.3g} of the roller "
+            "under a pressure that grows with each finer grid: the minimum film has no limit, and "
+            "no error bar."
+        ),
+        hint=Hint(
+            "Relieve the ends: a profile with a larger drop, such as "
+            'contact.profile = {shape = "logarithmic"}, less tilt, or less load.'
+        ),
     )
 
 
@@ -330,12 +349,14 @@ def _error_status(run: FilmSolver) -> Status:
     if not goal.is_open or errors is None or goal.is_met(errors, run.minimum_part()):
         return CONVERGED
     nodes = grid_size(run.finest.grid.points)
-    reached = max(errors.central, run.minimum_part() * errors.minimum)
+    reached = errors.film(run.minimum_part())
+    minimum, target = " film", percentage(run.options.target)
+    if errors.minimum_has_limit:
+        minimum = f" and {percentage(errors.minimum)} of the minimum film"
     return _failed(
         "error_not_reached",
-        f"The error bars on {nodes} are {percentage(errors.central)} of the central and "
-        f"{percentage(errors.minimum)} of the minimum film, above numerics.error = "
-        f"{percentage(run.options.target)}: {goal.obstacle or 'the next grid does not converge'}.",
+        f"The error bars on {nodes} are {percentage(errors.central)} of the central{minimum}, "
+        f"above numerics.error = {target}: {goal.obstacle or 'the next grid does not converge'}.",
         Hint(settings=error_setting(reached)),
     )
 
