@@ -8,13 +8,13 @@ from openpyxl import Workbook, load_workbook
 from typer.testing import CliRunner
 
 import tehl
-from tehl.api.problem import read_case
+from tehl.api.problem import case_from_tables, read_case
 from tehl.base.errors import InputError
 from tehl.cli import application
 from tehl.studies import Store
 from tehl.studies.answers import answers, values_of
 from tehl.studies.case import Case
-from tehl.studies.contacts import read_contacts, tables_of
+from tehl.studies.contacts import read_contacts, tables_of, template_tables
 from tehl.studies.headings import column_of
 
 COARSE = """
@@ -234,3 +234,8 @@ def test_answers_are_taken_in_parts(tmp_path, template, monkeypatch):
     monkeypatch.setattr("tehl.studies.answers._CHUNK", 3)
     assert [line["status"] for line in answers(contacts, Store(tmp_path / "s"))] == ["open"] * 7
     assert asked == [3, 3, 1]
+
+
+def test_films_of_a_list_without_a_template_have_the_default_error():
+    _, options = case_from_tables(template_tables(None)[0])
+    assert options.target == 0.01

@@ -105,9 +105,13 @@ def read_contacts(path: Path, template: Path | None = None) -> Contacts:
 
 
 def template_tables(template: Path | None) -> tuple[dict[str, Any], Path | None]:
-    """Return the tables of a template and the folder in which its files are."""
+    """Return the tables of a template and the folder in which its files are.
+
+    Without one the error of the films is the default.
+    """
     if template is None:
-        return tables_of_text(template_text(TEMPLATE)), None
+        tables = tables_of_text(template_text(TEMPLATE))
+        return {name: keys for name, keys in tables.items() if name != "numerics"}, None
     try:
         return toml_tables(template), template.parent
     except InputError as error:
