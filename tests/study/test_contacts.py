@@ -11,6 +11,7 @@ import tehl
 from tehl.api.problem import case_from_tables, read_case
 from tehl.base.errors import InputError
 from tehl.cli import application
+from tehl.estimate.settled import settled
 from tehl.studies import Store
 from tehl.studies.answers import answers, values_of
 from tehl.studies.case import Case
@@ -237,5 +238,5 @@ def test_answers_are_taken_in_parts(tmp_path, template, monkeypatch):
 
 
 def test_films_of_a_list_without_a_template_have_the_default_error():
-    _, options = case_from_tables(template_tables(None)[0])
-    assert options.target == 0.01
+    problem, options = case_from_tables(template_tables(None)[0])
+    assert settled(problem, options).target == 0.01
