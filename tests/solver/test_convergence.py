@@ -15,6 +15,7 @@ from tehl.solver.judging.convergence import (
     recedes,
 )
 from tehl.solver.judging.grid_errors import (
+    COMBINED,
     LEAST_CENTRAL,
     LEAST_MINIMUM,
     THIRD_CHANGE,
@@ -172,6 +173,19 @@ def test_a_first_grid_that_has_not_converged_shows_no_order(
         trace.minimum.values += [film - left * 0.7 / 0.3, film]
         trace.reports.append(report(1, 1e-6))
     assert (extrapolated_bars(traces, 3) is not None) is extrapolated
+
+
+def test_a_minimum_on_which_two_grids_agree_by_chance_keeps_its_bar() -> None:
+    traces = [GridTrace(outputs=Mock()) for _ in range(3)]
+    for trace, central, minimum in zip(
+        traces, (0.92, 0.98, 0.995), (0.9, 0.99, 0.9905), strict=True
+    ):
+        trace.measured = {"film_central": central, "film_minimum": minimum}
+        trace.central.values += [central, central]
+        trace.minimum.values += [minimum, minimum]
+        trace.reports.append(report(1, 1e-6))
+    assert list(extrapolated_bars(traces, 3) or {}) == ["discretisation_central"]
+    assert set(extrapolated_bars(traces, 2) or {}) == set(COMBINED)
 
 
 def report(cycle: int, residual: float) -> CycleReport:
