@@ -5,7 +5,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 
-from tehl.kernels.properties import Factors
+from tehl.kernels.properties import Factors, Heated
 from tehl.result.solution import CycleReport
 from tehl.solver.judging.convergence import (
     LEAST_CONVERGENCE_RATE,
@@ -25,7 +25,7 @@ from tehl.solver.judging.grid_errors import (
     extrapolated_bars,
     further_errors,
 )
-from tehl.solver.physics.thermal import LARGEST_LOG_STEP, damped
+from tehl.solver.physics.lag import LARGEST_LOG_STEP, Lag, damped
 
 
 @pytest.mark.parametrize("damping", [0.3, 0.5])
@@ -98,6 +98,21 @@ def test_damped_factors_converge_to_the_new_ones() -> None:
     for _ in range(60):
         old = damped(old, new, mobility, 0.3)
     np.testing.assert_allclose(np.ravel(old), np.ravel(new), rtol=1e-8)
+
+
+def test_a_film_behind_its_heat_is_driven_by_a_part_of_the_slope_until_it_has_caught_up() -> None:
+    """Of a flow as the cube of the slope, that part at which the oil flows as the film does."""
+    new = Factors(*(np.array([value]) for value in (0.0, 1.2, 1.0, 3.0, 1.0)))
+    old, lag = new._replace(mobility=np.array([1.0])), Lag(0.5, heats=True)
+    old, ones = lag.damped(old, new, np.ones(1)), np.ones(1)
+    assert lag.part is not None
+    assert lag.part**3 == pytest.approx(old.mobility / new.mobility)
+    heated = Heated(new.mobility * lag.part**2, ones, ones, new.stretch_x, new.stretch_y)
+    lag.complete(heated)
+    assert heated.mobility == pytest.approx(new.mobility)
+    for _ in range(40):
+        old = lag.damped(old, new, ones)
+    assert lag.part == pytest.approx(1.0, abs=1e-9)
 
 
 def test_a_sweep_changes_the_factors_by_a_limited_step() -> None:

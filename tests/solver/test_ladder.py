@@ -94,3 +94,46 @@ def test_scarce_oil_is_damped_more(hybrid_bearing: ContactProblem) -> None:
     )
     steep, less = (next(one.damping for one in some if one.damping < 1.0) for some in rungs)
     assert steep == STARVED_DAMPING < less
+
+
+BALLS = {
+    "thinning": ("4.8 mm", "-27.8 mm", "-5.01 mm", "12.1 m/s", 0.0174, "2.39 MPa", "22.5 1/GPa"),
+    "heated": ("2.1 mm", "5.4 mm", "-2.164 mm", "14.06 m/s", 0.0292, "2.7 MPa", "16.9 1/GPa"),
+}
+
+
+@pytest.mark.parametrize(("name", "nodes"), [("thinning", 129), ("heated", 161)])
+def test_a_very_steep_front_converges(
+    monkeypatch: pytest.MonkeyPatch, name: str, nodes: int
+) -> None:
+    """Rings of bearings, L = 27 and 30: neither the coarse grid nor heat moves the front away."""
+    ball, x, y, speed, slip, stress, alpha = BALLS[name]
+    tables: dict[str, dict[str, object]] = {
+        "contact": {
+            "hertz_pressure": "1.5 GPa",
+            "entrainment_speed": speed,
+            "slide_roll_ratio": slip,
+        },
+        "surface_1": {"material": "steel", "radius": ball},
+        "surface_2": {"material": "steel", "radius_x": x, "radius_y": y},
+        "lubricant": {
+            "temperature": "53.4 degC",
+            "conductivity": "0.14 W/m/K",
+            "heat_capacity": "2000 J/kg/K",
+            "viscosity": {
+                "law": "walther",
+                "nu_40": "150 mm^2/s",
+                "nu_100": "14.7 mm^2/s",
+                "alpha": alpha,
+            },
+            "density": {"law": "dowson-higginson", "rho_0": "880 kg/m^3"},
+            "shear": {"law": "eyring", "stress": stress},
+        },
+    }
+    if name == "heated":
+        tables["thermal"] = {}
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: (UNCOMBINED,))
+    ring, options = case_from_tables(tables)[0], OPTIONS.on_points(nodes, nodes // 2 + 1)
+    found = steady.try_strategies(ring, options, monitor=SILENT, rough=False)[1]
+    assert found.status.converged
+    assert abs(found.history[-1].temperature_rise) < 60.0

@@ -203,7 +203,7 @@ class GridIteration:
             self._iteration(levels, partial(self.hierarchy.cycle, levels), number)
         finer = len(self.levels) - len(levels)
         full = self.goal.is_open or finer < COMPARED_GRIDS
-        if self.coupling.begin(levels, finest=not finer, full=full):
+        if self.coupling.begin(levels, finest=not finer, full=full, early=self.strategy.early):
             for level in (*levels, *self.hierarchy.between.values()):
                 level.set_relaxation(self.strategy.relaxation)
         return cycles

@@ -17,6 +17,7 @@ from tehl.solver.cycle.relaxation import (
     CAREFUL,
     DAMPED,
     FAST,
+    FRONTS,
     GAUSS_SEIDEL,
     LIMITED,
     ROBUST,
@@ -48,6 +49,8 @@ class Strategy:
     """End it on the finest grid as soon as its cycles recede, as another strategy follows."""
     slide_in_steps: bool = False
     """Raise the sliding speed from zero over the first sweeps of the energy equation."""
+    early: bool = False
+    """Begin heat and thinning on a grid with half as many lines: there a front is wide."""
 
     @property
     def name(self) -> str:
@@ -132,7 +135,7 @@ TOUCHING = (
         patience=2,
     ),
 )
-UNCOMBINED = Strategy(relaxation=STEEP, damping=0.5, patience=3)
+UNCOMBINED = Strategy(relaxation=FRONTS, damping=0.5, patience=3, early=True)
 """Tried with a wedge of third order after the combined cycles, which overshoot at the steep fronts
 (L = 20 to 30) of films that are heated or thin."""
 THIRD_ORDER_STRATEGIES = 2

@@ -40,14 +40,16 @@ class Relaxation:
     stiff: bool = False
     """Add the change of conductance with pressure to the diagonal."""
     correction: tuple[float, float] = (1.0, math.inf)
-    """Between asperities: part of the correction of the coarser grid that is added, and largest
-    change of a pressure by it, over that pressure."""
+    """Part of the correction of the coarser grid that is added, and largest change of a pressure by
+    it, over that pressure: less than all between asperities, and at fronts that it does not
+    resolve."""
 
 
 FAST = Relaxation(name="fast", threshold=1.0, point=0.7, dipole=0.6)
 BROAD = Relaxation(name="broad", threshold=10.0, point=0.7, dipole=0.6)
 ROBUST = Relaxation(name="robust", threshold=1.0, point=0.4, dipole=0.3, lines=4, stiff=True)
 STEEP = Relaxation(name="steep", threshold=3.0, point=0.25, dipole=0.2, stiff=True)
+FRONTS = replace(STEEP, name="fronts", correction=(0.7, math.inf))
 LIMITED = replace(STEEP, name="limited", correction=(0.7, 0.3))
 STEEPER = Relaxation(name="steeper", threshold=10.0, point=0.25, dipole=0.1, stiff=True)
 ROUGH = Relaxation(name="rough", threshold=1.0, point=0.6, dipole=0.4, lines=4)

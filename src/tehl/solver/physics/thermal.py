@@ -5,7 +5,6 @@ and density, which are constant during a cycle and injected to the coarser grids
 (docs/theory/numerics-thermal.md on the coupling with the film).
 """
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -20,6 +19,7 @@ from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import HeatedFilm
 from tehl.operators.transfer import injected, midpoints
 from tehl.solver.cycle.level import Level
+from tehl.solver.physics.lag import Lag
 
 COUPLED_FROM = 64
 """Intervals of the coarsest grid that is heated; coarser ones keep the inlet temperature."""
@@ -42,9 +42,6 @@ UNFINISHED = 100.0
 """Change of temperature [K] reported for a sweep below the full sliding speed."""
 CARRIED = ("temperature", "tau_x", "tau_y")
 """Fields of the film that a sweep starts from."""
-LARGEST_LOG_STEP = 0.5
-"""Largest change of the logarithms of mobility and density per sweep. On a steep front the gradient
-of a pressure not yet converged may increase the mobility by orders of magnitude."""
 FIRST_CHANGE = 8.0
 """Change of temperature [K] at which the first sweeps end."""
 
@@ -86,13 +83,16 @@ class Coupling:
         self.thorough = options.accuracy == "tight" or counter_moving
         self.sweeps_left = RAMP if slide_in_steps else 0
         self.damping = damping if is_coupled else 1.0
+        self.lag = Lag(self.damping, heats=scaled.problem.thermal is not None)
         self.state: FilmState | None = None  # on the last level that was started
         self.factors: properties.Factors | None = None
         self.change, self.rise, self.skip = 0.0, 0.0, False
         # where motion varies: the density is that of the oil, not of its flux
         self.carries_mean = False
 
-    def begin(self, levels: Sequence[Level], *, finest: bool, full: bool) -> bool:
+    def begin(
+        self, levels: Sequence[Level], *, finest: bool, full: bool, early: bool = False
+    ) -> bool:
         """Heat the last of ``levels``; return whether it is heated or thinned.
 
         It starts from the temperatures of the next coarser grid, if there are any. A coarser grid
@@ -105,15 +105,19 @@ class Coupling:
         finest, full : bool
             Whether the last one is the level of the result, and whether it has the full sources: so
             do those whose temperatures are compared.
+        early : bool
+            Whether a grid with enough nodes along x may be the first.
         """
         if self.film is None:
             return False
         fine, coarser = levels[-1], self.state
-        large = min(n for n in fine.grid.points if n > 1) > COUPLED_FROM
+        nodes = (fine.grid.nx,) if early else fine.grid.points
+        large = min(n for n in nodes if n > 1) > COUPLED_FROM
         resolved = float(fine.film.h.min()) > RESOLVED_FILM_OVER_FLOOR * fine.equations.floor
         if not (finest or coarser is not None or (large and resolved)):
             return False
         self.skip = False
+        self.lag.begin()
         state = FilmState(
             fine.grid, self.film, self.wedge_order, finest=full, thorough=self.thorough
         )
@@ -250,6 +254,7 @@ class Coupling:
         """
         if self.film is None or self.state is None:
             return
+        self.lag.begin()
         self.scaled = self.film.scaled = replace(self.scaled, moment=moment)
         if self.state.transient is not None:
             self.state.transient.move(nodes)
@@ -284,6 +289,7 @@ class Coupling:
 
     def revert(self, levels: Sequence[Level]) -> None:
         """Restore those of the last time step."""
+        self.lag.begin()
         if self.state is not None and self.state.transient is not None:
             self.state.transient.go_back()
         if self.factors is not None:
@@ -295,6 +301,7 @@ class Coupling:
         self.sweeps_left = max(self.sweeps_left - 1, 0)
         state.slide(1.0 - self.sweeps_left / RAMP)
         _set_film(state, fine)
+        self.lag.drive(state)
         change = state.sweep(steps)
         if self.sweeps_left:
             change = max(change, UNFINISHED)
@@ -309,6 +316,7 @@ class Coupling:
         if self.carries_mean:
             heated.density[:] = state.view("mean_density").T
         heated.mobility[:] /= self.scaled.groups.lambda_bar
+        self.lag.complete(heated)
         factors = properties.Factors(*np.empty((5, *shape)))
         # at H = 1 the conductance is the mobility: factors do not depend on the film
         isothermal = properties.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
@@ -318,7 +326,7 @@ class Coupling:
             before = properties.Factors(np.zeros(shape), *np.ones((4, *shape)))  # isothermal
         fine.sources.drift = state.drift()
         if before is not None:
-            factors = damped(before, factors, isothermal.eps, self.damping)
+            factors = self.lag.damped(before, factors, isothermal.eps)
         self._set_factors(levels, factors)
 
     def _set_factors(self, levels: Sequence[Level], factors: properties.Factors) -> None:
@@ -343,34 +351,6 @@ def _refined(factor: Array, shape: tuple[int, ...]) -> Array:
     if factor.min() > 0.0:
         return np.asarray(np.exp(midpoints(np.log(factor), shape)))
     return midpoints(factor, shape)
-
-
-def damped(
-    old: properties.Factors, new: properties.Factors, isothermal: Array, damping: float
-) -> properties.Factors:
-    """Return factors between old and new ones, in logarithms, at most `LARGEST_LOG_STEP` away.
-
-    Parameters
-    ----------
-    old, new : Factors
-        Of the last sweep and of this one.
-    isothermal : array (ny, nx)
-        Isothermal Newtonian mobility at the pressure of this sweep [-].
-    damping : float
-        Part of the way [-].
-    """
-
-    def step(before: Array, after: Array) -> Array:
-        if damping == 1.0:  # the same without logarithms
-            least, most = math.exp(-LARGEST_LOG_STEP), math.exp(LARGEST_LOG_STEP)
-            return np.clip(after, least * before, most * before)
-        change = damping * np.log(after / before)
-        return before * np.exp(np.clip(change, -LARGEST_LOG_STEP, LARGEST_LOG_STEP))
-
-    before, after = (one.rest + one.mobility * isothermal for one in (old, new))
-    part = step(before, after) / after
-    others = (step(a, b) for a, b in zip(old[2:], new[2:], strict=True))
-    return properties.Factors(part * new.rest, part * new.mobility, *others)
 
 
 def _set_film(state: FilmState, level: Level) -> None:
