@@ -141,7 +141,7 @@ def test_the_solution_does_not_depend_on_the_start(bump: Result):
     for part in (1.0, 0.0, 0.3):
         newton = started(bump, on(65, AROUND_BUMP), part)
         level = newton.level
-        for _ in range(60):
+        for _ in range(120):  # from a start without oil it wanders: 34 or 62 by the last digits
             newton.step()
             if newton.residual() < 1e-11:
                 break
