@@ -16,12 +16,12 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import ConvergenceError, Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Options
+from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.relaxation import FAST, Relaxation
-from tehl.solver.steady import finest_grid
 
 FFT_REPEATS = 20
 

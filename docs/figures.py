@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Patch
 
 import tehl
+from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.flow import flow_table
 from tehl.operators.influence import influence_of
@@ -18,7 +19,6 @@ from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.fas import Cycle, Transfers, cycle
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import FAST, LineSmoother
-from tehl.solver.steady import finest_grid
 
 POINTS = 129
 

@@ -12,10 +12,10 @@ import pytest
 from tehl.api.problem import case_from_tables
 from tehl.contact.options import Options
 from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.nodes import finest_grid
 from tehl.io.templates import template_text
 from tehl.report.explain import Explanation, as_summary, as_text, explain
 from tehl.report.readable import length
-from tehl.solver.steady import finest_grid
 from tests.cases import ball_tables
 
 

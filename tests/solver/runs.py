@@ -6,12 +6,12 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Options
+from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import SMOOTH
 from tehl.solver.cycle.relaxation import FAST
-from tehl.solver.steady import finest_grid
 from tests.reference import DOMAIN, moes_contact
 
 TIGHT = {"accuracy": "tight", "domain": DOMAIN}

@@ -134,6 +134,13 @@ def test_a_certified_run_has_bars_for_film_and_pressure():
     assert "33 x 33 converged, 65 x 65 converged, 129 x 129 converged" in result.status.message
 
 
+def test_the_bar_of_the_largest_pressure_holds_that_of_a_spike_that_no_grid_resolves():
+    """On 161, 1025 and 2049 nodes it is 1.014, 1.115 and 1.205 Hertz pressures."""
+    highest = certify(moes_contact(75.0, 11.0), Options(points=161)).uncertainty["pressure_max"]
+    assert highest.value == pytest.approx(1.014, abs=2e-3)
+    assert highest.value + highest.uncertainty > 1.205
+
+
 def test_two_values_give_the_finer_one_with_the_whole_change_as_its_bar():
     found = estimate((0.5, 0.4), domain=0.0)
     assert (found.value, found.observed_order) == (0.4, None)

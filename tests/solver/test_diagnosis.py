@@ -5,6 +5,7 @@ import pytest
 from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.contact.options import Domain, Options
 from tehl.estimate.grid import Grid
+from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.io.case import tables_of_text
 from tehl.io.templates import template_text
@@ -12,7 +13,6 @@ from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import COUPLED
 from tehl.solver.judging.diagnosis import LikelyCause, diverged, grid_hint, likely_cause
-from tehl.solver.steady import finest_grid
 from tests.reference import heated_contact, moes_contact
 
 DOMAIN = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))

@@ -134,8 +134,9 @@ def test_the_bars_to_expect_of_ellipses_do_not_limit_those_of_rollers():
     short = roller(20.0, length="2.3 mm", profile=LOGARITHMIC)
     found, scaled = tehl.solve(short, Options(points=(129, 129))), ScaledProblem.of(short)
     expected = third_order_bar(scaled, domain_of(scaled, found.options), 129)
-    # lines four times as many change the thinnest film by 1.3 %
-    assert found.errors.discretisation_minimum > max(0.01, 1.5 * expected)
+    assert found.errors.discretisation_minimum > 1.5 * expected
+    # 513 x 513 nodes
+    assert found.film_scaled.minimum == pytest.approx(0.06255, rel=found.errors.minimum)
 
 
 def test_lines_crowd_at_the_ends_and_resolve_the_film_there():
@@ -145,7 +146,7 @@ def test_lines_crowd_at_the_ends_and_resolve_the_film_there():
     assert y[-1] - y[-2] < 0.15 * (y[65] - y[64])
     # grids twice as fine each way give 0.0184
     assert found.film_scaled.minimum == pytest.approx(0.0184, rel=found.errors.minimum)
-    assert found.errors.minimum < 0.08
+    assert found.errors.minimum < 0.15  # uniform lines err by a third
 
 
 def test_a_sharp_end_under_pressure_has_no_thinnest_film():

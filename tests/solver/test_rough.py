@@ -10,11 +10,11 @@ from tehl.api.solvers import solve
 from tehl.base.errors import InputError
 from tehl.cli.text import as_text
 from tehl.contact.options import Options
+from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.operators.heights import full_weighting, heights_of
 from tehl.report.page import report_text
 from tehl.solver.cycle.anderson import Anderson
-from tehl.solver.steady import finest_grid
 from tests.cases import ball_tables
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.rough import bumpy, rough_film, wave_on

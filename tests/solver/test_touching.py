@@ -12,6 +12,7 @@ from tehl.base.errors import InputError
 from tehl.cli.text import as_text
 from tehl.contact.options import Domain, Options
 from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.io.store import save
 from tehl.io.summary import summary
@@ -26,7 +27,6 @@ from tehl.solver.cycle.relaxation import BESIDE_NEWTON
 from tehl.solver.cycle.start import from_dry_pressure
 from tehl.solver.physics.boundary_contact import TouchingNewton
 from tehl.solver.physics.boundary_system import TouchingSystem
-from tehl.solver.steady import finest_grid
 from tehl.solver.transient.snapshot import Snapshot, pack, unpack
 from tehl.solver.transient.step import Stepper
 from tests.cases import ball_tables

@@ -8,6 +8,7 @@ from pathlib import Path
 from tehl.base.errors import InputError
 from tehl.contact.options import Options, coarsenable
 from tehl.contact.problem import ContactProblem
+from tehl.estimate.settled import crowds_at_ends
 
 BYTES_PER_NODE = 180
 """Measured peak memory of an isothermal Newtonian solve per node of the finest full grid."""
@@ -19,7 +20,7 @@ USABLE_MEMORY_PART, USUAL_MEMORY = 0.5, 1.2e9
 """Part of the free memory that a solve takes unasked, and most [byte]: so the process stays below
 1.5 GB."""
 BYTES_PER_PAIR = 16
-"""Added by a roller per node along x and pair of lines: half of it by the finest grid."""
+"""Added where lines crowd at ends, per node along x and pair of lines: half by the finest grid."""
 USUAL_LAYERS = 9
 NEGLIGIBLE_MEMORY = 16e6
 """Need that any machine running Python can satisfy [byte]: available memory is not checked."""
@@ -40,7 +41,7 @@ def needed_memory(options: Options, problem: ContactProblem | None = None) -> fl
     """
     nodes_y, nodes_x = options.shape
     found = float(_bytes_per_node(problem) * nodes_y * nodes_x)
-    if problem is not None and problem.contact.type == "roller":  # each line bends each other one
+    if problem is not None and crowds_at_ends(problem, options):  # each line bends each other one
         stored = (nodes_y + 1) // 2 if problem.is_even_in_y else nodes_y
         found += BYTES_PER_PAIR * nodes_x * stored**2
     return found

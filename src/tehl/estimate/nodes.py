@@ -1,12 +1,15 @@
 """Number of nodes, planned for the error to reach."""
 
+from dataclasses import replace
+
 from tehl.contact.options import Domain, Options
 from tehl.contact.shape import LINE
 from tehl.estimate.domain import domain_of, far_field_error
 from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.grid import END_CELL, Grid, can_mirror, crowding
 from tehl.estimate.line import LINE_ROUGH_NODES, line_bar, line_points
 from tehl.estimate.scaling import Groups, ScaledProblem
-from tehl.estimate.settled import settled
+from tehl.estimate.settled import crowds_at_ends, settled
 from tehl.estimate.starvation import is_starved, supplied_film
 from tehl.estimate.summits import shared_load
 from tehl.estimate.third_order import third_order_bar
@@ -213,3 +216,23 @@ def film_to_resolve(scaled: ScaledProblem) -> float | None:
     ratio = film * scaled.scales.film_thickness / scaled.problem.asperity_rms
     left = (1.0 - shared.share) ** 1.23 * min(max(ratio, LEAST_LAMBDA), 1.0) ** 1.7
     return film * max(shared.gap / film, 1.0) ** 2 / left
+
+
+def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
+    """Return the grid of the result, half of it if the contact is symmetric.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Its domain is recommended unless one is stated.
+    options : Options
+        With the nodes stated.
+    """
+    domain, (ny, nx) = domain_of(scaled, options), options.shape
+    halves = options.half_domain == "auto" and scaled.problem.is_even_in_y
+    mirror = halves and can_mirror(options.shape, domain)
+    grid = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror)
+    if not (grid.is_closed and crowds_at_ends(scaled.problem, options)):
+        return grid
+    least = END_CELL * grid.dx / (scaled.groups.ellipticity * grid.dy)
+    return replace(grid, crowding=crowding(least))

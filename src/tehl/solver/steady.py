@@ -16,11 +16,10 @@ from tehl.base.wording import grid_size
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import domain_of
-from tehl.estimate.grid import END_CELL, Grid, can_mirror, crowding
 from tehl.estimate.memory import check_memory
-from tehl.estimate.nodes import planned
+from tehl.estimate.nodes import finest_grid, planned
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.settled import is_plain, settled
+from tehl.estimate.settled import settled
 from tehl.estimate.starvation import FORMULA_ERROR, Flooded, check_supply
 from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import heights_of, units_of
@@ -372,30 +371,6 @@ def _run(run: FilmSolver, *, force: bool) -> Attempt:
             status = Status(kind="not_converged", cause=NO_MEMORY, message=message)
             return Attempt(run=run, status=status, reached=False)
     return Attempt(run=run, status=verdict(run, reached=reached), reached=reached)
-
-
-def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
-    """Return the grid of the result, half of it if the contact is symmetric.
-
-    Lines of a roller crowd at its ends where the film is one of oil alone, isothermal and steady:
-    the energy equation, heights, time steps and dynamics need uniform ones.
-
-    Parameters
-    ----------
-    scaled : ScaledProblem
-        Its domain is recommended unless one is stated.
-    options : Options
-        With the nodes stated.
-    """
-    domain, (ny, nx) = domain_of(scaled, options), options.shape
-    halves = options.half_domain == "auto" and scaled.problem.is_even_in_y
-    mirror = halves and can_mirror(options.shape, domain)
-    grid = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror)
-    crowds = is_plain(scaled.problem) and options.accuracy != "tight"
-    if not (grid.is_closed and crowds):
-        return grid
-    least = END_CELL * grid.dx / (scaled.groups.ellipticity * grid.dy)
-    return replace(grid, crowding=crowding(least))
 
 
 def _result(

@@ -94,7 +94,7 @@ def _by_grids(
             least=expected,
             most=MOST_EXPECTED * expected if expected and is_flooded else math.inf,
             extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == comparable[-2:],
-            line=level.grid.ny == 1,
+            line=level.grid.ny == 1 or level.grid.is_closed,
         )
     # grids that resolve the same heights
     comparable = [trace for trace in traces[roughness.first_comparable :] if not trace.diverged]
@@ -149,9 +149,9 @@ class Goal:
         """
         if errors is None:
             return 0.0
-        others = max(
-            errors.central - errors.iteration_central, errors.minimum - errors.iteration_minimum
-        )
+        others = errors.central - errors.iteration_central
+        if errors.minimum_has_limit:
+            others = max(others, errors.minimum - errors.iteration_minimum)
         target = self.options.target
         return min(SPARE_PART * (target - others), MOST_SPARE * target)
 
@@ -211,6 +211,8 @@ class Goal:
         """
         grid, target = level.grid, self.options.target
         if errors is None or errors.central > target or not self.options.extrapolate:
+            return False
+        if not errors.minimum_has_limit:
             return False
         others = errors.minimum - errors.discretisation_minimum
         if errors.discretisation_minimum < LINES_PART * errors.discretisation_central:

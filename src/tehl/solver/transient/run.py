@@ -14,7 +14,7 @@ from tehl.contact.problem import ContactProblem
 from tehl.contact.transient import Transient
 from tehl.estimate.duration import misplaced, number_of_steps
 from tehl.estimate.grid import Grid
-from tehl.estimate.nodes import planned
+from tehl.estimate.nodes import finest_grid, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
 from tehl.kernels.warmup import warm_up
@@ -26,7 +26,7 @@ from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
 from tehl.solver.judging.measures import is_resolved, mid_film_stress, mid_film_traction
 from tehl.solver.monitor import SILENT, StepMonitor
-from tehl.solver.steady import Attempt, finest_grid, try_strategies
+from tehl.solver.steady import Attempt, try_strategies
 from tehl.solver.transient.checks import check_peaks, check_size, check_stride, check_waves
 from tehl.solver.transient.snapshot import ANEW, COLUMNS, Record, Snapshot, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
