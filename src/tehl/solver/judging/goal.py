@@ -94,7 +94,7 @@ def _by_grids(
             least=expected,
             most=MOST_EXPECTED * expected if expected and is_flooded else math.inf,
             extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == comparable[-2:],
-            line=level.grid.ny == 1 or level.grid.is_closed,
+            kind=hierarchy.scaled.problem.contact.type,
         )
     # grids that resolve the same heights
     comparable = [trace for trace in traces[roughness.first_comparable :] if not trace.diverged]
