@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from benchmarks.pairs import FEATURES, WAVE, contact, outcome
+from benchmarks.pairs import FEATURES, WAVE, WAYS, contact, outcome
 from scipy.integrate import quad
 
 from tehl.api.problem import ContactProblem
@@ -146,6 +146,16 @@ def test_friction_in_time_is_that_of_film_and_solids():
 @pytest.mark.parametrize("other", [name for name in FEATURES if name != "boundary"])
 def test_each_physics_works_with_a_boundary_film(other: str):
     assert outcome((other, "boundary"), 65) == "works"
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_heated_contact_through_a_boundary_film_works_each_way(way: str):
+    assert outcome(("heat", "boundary"), 65, way) == "works"
+
+
+def test_a_study_of_a_transient_run_is_refused_with_a_reason():
+    assert outcome(("load",), 65, "study").startswith("refused: ")
+    assert outcome(("load",), 65, "study").endswith("a study is one of steady films")
 
 
 def test_the_text_states_the_friction_of_film_contact_and_asperities_together(monkeypatch):
