@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import Result, load
@@ -121,6 +122,7 @@ def test_lines_with_heat_or_scarce_oil_and_at_other_distances_have_a_response():
     )
     for film in (warm, scarce):
         assert (film.damping > 0.0).all()
+        assert (film.stiffness_error < 0.02 * film.stiffness).all()
         assert film.stiffness == pytest.approx(plain.stiffness, rel=0.05)
     problem = line_problem(50.0, 10.0)
     half = scales(problem).half_width_x
@@ -160,6 +162,10 @@ def test_at_rest_the_stiffness_is_that_of_two_steady_films():
     assert still == pytest.approx(slope, rel=1e-4)
 
 
+ROLLER_STIFFNESS = 452.2e6
+"""Limit of the stiffness at rest of `even_roller` [N/m], first order over 65, 129 and 257 lines."""
+
+
 def even_roller(*omegas: float, factor: float = 1.0) -> ContactProblem:
     """Return a roller pressed evenly, under ``factor`` times its load, at some omega b/u_m."""
     shape = {"type": "roller", "radius": "20 mm", "length": "10 mm"}
@@ -190,6 +196,8 @@ def test_at_rest_the_stiffness_of_a_roller_is_that_of_two_steady_films():
     domain = Domain(x=(-3.5, 1.5), y=(-1.0, 1.0))
     film = solve(even_roller(1.0), Options(domain=domain, **options)).dynamics
     assert film.stiffness[0] == pytest.approx(slope, rel=1e-4)
+    assert abs(film.stiffness[0] - ROLLER_STIFFNESS) < film.stiffness_error[0]
+    assert (film.stiffness_error < 0.03 * film.stiffness).all()
 
 
 def test_the_film_of_a_long_roller_yields_like_that_of_a_line():
@@ -204,6 +212,9 @@ def test_the_film_of_a_long_roller_yields_like_that_of_a_line():
     # of the line: that of one metre
     assert np.abs(100.0 * still - moving).max() < 0.05 * np.abs(moving).max()
     assert (roller.damping > 0.0).all()
+    assert abs(roller.stiffness[0] - ROLLER_STIFFNESS) < roller.stiffness_error[0]
+    assert (roller.stiffness_error < 0.015 * roller.stiffness).all()
+    assert (roller.damping_error < 0.03 * roller.damping)[:-1].all()
 
 
 def marched(omega, points):
@@ -246,27 +257,41 @@ def test_the_march_in_time_has_the_same_response(omega, points):
 
 
 def test_frequencies_within_a_factor_of_two_share_a_factorisation(monkeypatch):
-    monkeypatch.setattr(response, "CloseInverse", lambda _, omega: SimpleNamespace(omega=omega))
+    def inverse(_, omega, order=None):
+        close = SimpleNamespace(perm_c=np.arange(3))
+        return SimpleNamespace(omega=omega, order=order, close=close)
+
+    monkeypatch.setattr(response, "CloseInverse", inverse)
     inverses = response.CloseInverses(None)
     assert inverses.at(1.0) is inverses.at(2.0) is inverses.at(0.5)
+    assert inverses.at(1.0).order is None  # the first one finds it
     assert inverses.at(0.0) is inverses.at(0.0)
+    assert inverses.at(0.0).order is not None
     assert len({id(inverses.at(omega)) for omega in (0.0, 1.0, 2.1, 0.4)}) == 4
 
 
-def test_films_absorb_and_obey_kramers_and_kronig(swept: Result):
-    found = swept.dynamics
+def test_films_absorb_and_obey_kramers_and_kronig():
+    """k(Omega) - k(0) = -(2 Omega^2/pi) P int c(Omega') / (Omega'^2 - Omega^2) from c alone.
+
+    With frequencies up to 30 it is right to 13 % at Omega = 3, up to 100 to 0.1 %, up to 300 to
+    0.01 %: waves of oil reach far. At Omega = 0.1 k has risen by 0.07 % only.
+    """
+    given = np.geomspace(0.03, 300.0, 80)
+    swept = solve(at(moes_contact(50.0, 10.0), *given), on(65))
+    assert (swept.dynamics.damping > 0.0).all()
     stiffness, absorbed = dimensionless(swept)
-    assert (found.damping >= 0.0).all()
-    omega = 2.0 * np.pi * found.frequency[1:] * time_of(swept.problem)
-    # k(Omega) - k(0) = -(2 Omega^2 / pi) P int  Omega' c(Omega') / (Omega' (Omega'^2 - Omega^2))
-    fine = np.exp(np.linspace(np.log(omega[0]), np.log(omega[-1]), 4001))
-    imaginary = np.interp(np.log(fine), np.log(omega), absorbed[1:])
-    step, place = np.log(fine[1] / fine[0]), 2031  # Omega = 1, far from both ends
-    odd = np.arange(fine.size) % 2 != place % 2  # the principal value: nodes on both sides
-    kernel = imaginary[odd] / (fine[odd] ** 2 - fine[place] ** 2)
-    risen = -2.0 * fine[place] ** 2 / np.pi * 2.0 * step * kernel.sum()
-    known = np.interp(np.log(fine[place]), np.log(omega), stiffness[1:]) - stiffness[0]
-    assert risen == pytest.approx(known, rel=0.03)
+    fine = np.exp(np.linspace(np.log(given[0]), np.log(given[-1]), 8001))
+    c = CubicSpline(np.log(given), absorbed[1:] / given)(np.log(fine))
+    k = CubicSpline(np.log(given), stiffness[1:])(np.log(fine))
+    step = np.log(fine[1] / fine[0])
+    for omega, rel in ((0.1, 5e-3), (0.3, 2e-3), (1.0, 2e-3), (3.0, 2e-3), (10.0, 1e-2)):
+        place = int(np.argmin(np.abs(fine - omega)))
+        odd = np.arange(fine.size) % 2 != place % 2  # the principal value: nodes on both sides
+        integral = 2.0 * step * (c * fine)[odd] @ (1.0 / (fine[odd] ** 2 - fine[place] ** 2))
+        below = (fine[place] - fine[0]) / (fine[place] + fine[0])
+        integral += c[0] * np.log(below) / (2.0 * fine[place])
+        risen = -2.0 * fine[place] ** 2 / np.pi * integral
+        assert risen == pytest.approx(k[place] - stiffness[0], rel=rel)
 
 
 def test_a_film_that_is_thin_leaves_the_dry_stiffness():
