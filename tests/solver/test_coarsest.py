@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from tehl.contact.options import Options
+from tehl.solver.cycle import film_solver
 from tehl.solver.cycle.coarsest import CoarsestSolver
 from tehl.solver.cycle.start import from_dry_pressure
+from tehl.solver.judging.measures import nodal_film
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.runs import multigrid
 
@@ -53,3 +55,19 @@ def test_where_it_does_not_a_newton_step_takes_its_place(solved):
     exact, there = stepped(solved, 3.0, newton=True)
     assert pressure == pytest.approx(exact, abs=1e-12)
     assert approach == pytest.approx(there, abs=1e-12)
+
+
+@pytest.mark.parametrize("points", [33, 65])  # with the finest grid next, or another one
+def test_a_coarsest_state_that_has_not_converged_is_no_start(points, monkeypatch):
+    def fails(hierarchy, **_):
+        coarsest = hierarchy.levels[0]
+        coarsest.set_state(np.full_like(coarsest.film.p, np.nan), np.nan)
+        coarsest.update()
+        return False
+
+    case, options = moes_contact(20.0, 10.0), Options(points=points, domain=DOMAIN)
+    usual, found = multigrid(case, options), multigrid(case, options)
+    usual.solve(force=False)
+    monkeypatch.setattr(film_solver, "solve_coarsest", fails)
+    assert found.solve(force=False)
+    assert nodal_film(found.finest) == pytest.approx(nodal_film(usual.finest), rel=2e-3)

@@ -193,7 +193,11 @@ class FilmSolver(GridIteration):
         """Solve on the coarsest grid by Newton's method, from the Hertz pressure."""
         coarsest = self.levels[0]
         from_dry_pressure(coarsest, self.hierarchy.expected_film)
-        solve_coarsest(self.hierarchy, newton=self.strategy.newton)
+        start = coarsest.state()
+        if not solve_coarsest(self.hierarchy, newton=self.strategy.newton):
+            coarsest.set_state(*start)
+            coarsest.update()
+            self._discard(self.levels[:1])
         self.traces.append(GridTrace())
         self.traces[0].note(*nodal_film(coarsest))
 
@@ -211,6 +215,7 @@ class FilmSolver(GridIteration):
         else:
             from_dry_pressure(fine, film)
             self.from_hertz = True
+            self.accepted = number == 1  # no cycles have failed yet
 
     def _approximate(self, levels: Sequence[Level]) -> bool:
         """Iterate on a coarser grid; return whether its solution is a start for the next grid."""

@@ -51,7 +51,7 @@ DAMPED_MEMORY = 3
 """Most earlier cycles combined if heat and thinning are damped: older ones had another flow."""
 FIRST_STEPS, TOUCHING_STEPS, SMALL_STEP = 6, 20, 0.03
 """Most Newton steps on the coarsest grid at the start, and where surfaces may touch, and the change
-that ends the first ones; that they may not converge does no harm."""
+at which the first ones have converged."""
 
 Iterate = Callable[[Callable[[], object]], float]
 """Performs a step with all that follows it, and returns the residual."""
@@ -235,7 +235,7 @@ def method_of(visit: Visit) -> Cycles:
     return NewtonSteps(visit) if newton and visit.is_rough else Cycles(visit)
 
 
-def solve_coarsest(hierarchy: Hierarchy, *, newton: bool) -> None:
+def solve_coarsest(hierarchy: Hierarchy, *, newton: bool) -> bool:
     """Solve on the coarsest grid, from its present state, by Newton's method.
 
     Parameters
@@ -244,17 +244,26 @@ def solve_coarsest(hierarchy: Hierarchy, *, newton: bool) -> None:
         Its first level changes in place.
     newton : bool
         Whether the strategy has Newton's method where surfaces may touch.
+
+    Returns
+    -------
+    bool
+        Whether it converged, so that the next grid may start from it; where surfaces may touch
+        single nodes go on changing.
     """
-    coarsest = hierarchy.levels[0]
+    coarsest, converged = hierarchy.levels[0], False
     if not (newton and coarsest.share.bounds_film):
         for _ in range(FIRST_STEPS):
-            if hierarchy.coarsest.newton_step() < SMALL_STEP:
+            converged = hierarchy.coarsest.newton_step() < SMALL_STEP
+            if converged:
                 break
     else:
         touching = TouchingNewton(coarsest, coarsest.grid, order=1)
         for _ in range(TOUCHING_STEPS):
             touching.step()
+        converged = True
     coarsest.update()
+    return converged
 
 
 def coarse_grid(levels: Sequence[Level], nodes: int) -> Grid:
