@@ -28,12 +28,15 @@ from tehl.plots import asperity_map, pictures_of
 from tehl.post.heat import work_error
 from tehl.report.page import report_text
 from tehl.result.solution import Status
+from tehl.solver.cycle.methods import solve_coarsest
+from tehl.solver.cycle.start import from_dry_pressure
 from tehl.solver.judging.outputs import asperity_balance
 from tehl.solver.monitor import SILENT
 from tehl.solver.physics.cavity import oil_flow
 from tehl.solver.steady import try_strategies
 from tests.reference import CLOSE, heated_contact, moes_contact
 from tests.reference import touching_contact as rough
+from tests.solver.runs import multigrid
 
 # ---- laws
 
@@ -551,6 +554,18 @@ def test_cycles_are_combined_where_asperities_share_the_load_with_a_steep_spike(
     coarser = solve(rough(246.0, 14.6, 0.0637), Options(points=161))  # by cycles alone
     difference = coarser.film_scaled.central / found.film_scaled.central - 1.0
     assert abs(difference) < coarser.errors.central
+
+
+def test_stiff_summits_of_a_slender_contact_start_from_a_dry_contact_in_balance():
+    """One change of their pressure moves the film by more than in a circle: it went to and fro."""
+    problem = rough(2828.0, 11.1, 0.93, steep=0.0141, dense=0.209, radius_ratio=22.4)
+    run = multigrid(problem, Options(points=(97, 49)))
+    coarsest = run.levels[0]
+    from_dry_pressure(coarsest, run.hierarchy.expected_film)
+    coarsest.update()
+    assert abs(coarsest.load_error()) < 0.03
+    assert coarsest.pressure.max() < 1.1
+    assert solve_coarsest(run.hierarchy, newton=False)
 
 
 def test_soft_summits_of_a_bearing_do_not_press_the_start_into_each_other():

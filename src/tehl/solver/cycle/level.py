@@ -14,7 +14,7 @@ from tehl.operators.far_field import Edges
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Relaxation, make_smoother
 from tehl.solver.physics.cavity import cavity_of
-from tehl.solver.physics.share import FILM_PER_PRESSURE, share_of
+from tehl.solver.physics.share import share_of
 
 AT_ENDS = (1.0, 0.3)
 """The correction where lines crowd at the ends of a roller: the coarser grids, with cells much
@@ -145,7 +145,7 @@ class Level:
         np.add(h, self.share.raised(self.rigid_approach), out=h)
         if self.far_field is not None:
             self.far_field.set_edges(self.film.p, h)
-        self.share.follow(self, FILM_PER_PRESSURE)
+        self.share.follow(self, self.share.reach)
         self.is_stale = False
         self.cavity.mark(self)
 

@@ -23,15 +23,16 @@ from tehl.solver.cycle.relaxation import Smoother
 from tehl.solver.judging.film_summary import central_value
 
 FILM_PER_PRESSURE = 1.5
-"""Film of a smooth change of the pressure in the contact, over that change [-]: 4/pi in the middle
-of a uniform one over the Hertz circle, and somewhat more, as too little only takes longer."""
+"""Film of a smooth change of the pressure in the contact, over that change and over the approach of
+the dry contact, which is one in a circle [-]: 4/pi in the middle of a uniform one, and somewhat
+more, as too little only takes longer."""
 LARGEST_SHARE_FROM_HERTZ = 0.1
 """Share of the load by formula up to which cycles start from the Hertz pressure. Ten contacts of
 shares 1e-9 to 0.04 converge from it and not from the dry contact; one of share 1 takes 27 cycles
 from the dry contact and 50 from that of Hertz."""
-DRY_STEPS, DRY_PART, DRY_ERROR = 20, 0.5, 0.01
-"""Most steps to a dry contact, change of the rigid approach over the missing part of the load, and
-the part that ends them: it is only a start."""
+DRY_STEPS, DRY_PART, DRY_ERROR = 100, 0.5, 1e-4
+"""Most steps to a dry contact; change of the rigid approach over the missing part of the load; and
+that part and the change of a pressure that end them: it is only a start."""
 
 
 class Carried(Protocol):
@@ -84,6 +85,8 @@ class OilAlone:
     """Most that the smallest film may be over that of the oil alone, as a part of its error [-]."""
     stays = False
     """Whether the nodes that touch stay as they are: coarser grids of a cycle correct others."""
+    reach = 0.0
+    """Film of a smooth change of the pressure in the contact, over that change [-]."""
 
     def __init__(self, equations: Equations) -> None:
         self.equations = equations
@@ -192,6 +195,7 @@ class Summits(OilAlone):
     def __init__(self, equations: Equations, table: AsperityTable) -> None:
         super().__init__(equations)
         self.table = table
+        self.reach = FILM_PER_PRESSURE * max(1.0, self._pressed()[1])
         self.kept = np.zeros(equations.grid.shape)  # what they carried in the injected state
 
     def extend(self, film: Film) -> Film:
@@ -254,21 +258,29 @@ class Summits(OilAlone):
             level.set_state(level.film.asperity, level.rigid_approach, 0.0)
         level.move(middle - central_value(self.equations.grid, level.separation))
 
+    def _pressed(self) -> tuple[Array, float]:
+        """Return the Hertz pressure, ``grid.shape``, and the approach under it [-]."""
+        equations = self.equations
+        pressure = dry_pressure(equations.grid, equations.groups)
+        deflection = np.empty_like(pressure)
+        equations.deformation.deflect(pressure, deflection)
+        return pressure, central_value(equations.grid, deflection)
+
     def _press_dry(self, level: Carried) -> None:
-        """Let dry asperities carry the load, from the present pressure on.
+        """Let dry asperities carry the load, from the Hertz pressure on.
 
         Where oil is cavitated they follow their law; the rigid approach follows the load, which
         grows as its power 3/2 (Hertz).
         """
-        pressure, h = level.film.p.copy(), level.separation
-        self.equations.deformation.deflect(pressure, h)
-        level.set_state(np.zeros_like(pressure), -central_value(self.equations.grid, h), pressure)
-        missing = -level.load_error()
+        pressure, approach = self._pressed()
+        level.set_state(np.zeros_like(pressure), -approach, pressure)
+        missing, solids = -level.load_error(), level.film.asperity
         for _ in range(DRY_STEPS):
+            before = solids.copy()
             level.move(-DRY_PART * min(max(missing, -1.0), 1.0))
             level.update()
             missing = -level.load_error()
-            if abs(missing) <= DRY_ERROR:
+            if max(abs(missing), float(np.abs(solids - before).max())) <= DRY_ERROR:
                 return
 
 
@@ -328,7 +340,7 @@ class BoundaryContact(OilAlone):
             self.nearest = beneath.table.separation(least)
             self.carried = beneath.table.pressure(self.nearest)
         self.is_steep, self.lowest = beneath.is_steep, beneath.lowest
-        self.combines = beneath.combines
+        self.combines, self.reach = beneath.combines, beneath.reach
         self.touching, self.lowered = np.zeros(shape, bool), np.zeros(shape, bool)
         self.held = np.zeros(shape)
 
