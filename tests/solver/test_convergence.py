@@ -176,9 +176,12 @@ def test_cycles_recede_where_the_residual_grows_twice_in_succession(
     assert recedes(trace) is found
 
 
-@pytest.mark.parametrize(("left", "extrapolated"), [(1e-3, True), (0.04, False)])
-def test_a_first_grid_that_has_not_converged_shows_no_order(
-    left: float, extrapolated: bool
+@pytest.mark.parametrize(
+    ("left", "least", "extrapolated"),
+    [(1e-3, 0.01, True), (0.04, 0.01, False), (1e-3, 0.02, False)],
+)
+def test_a_first_grid_that_has_not_converged_or_is_too_coarse_shows_no_order(
+    left: float, least: float, extrapolated: bool
 ) -> None:
     """``left`` is the iteration error of the minimum film on the first of three grids."""
     traces = [GridTrace(outputs=Mock()) for _ in range(3)]
@@ -187,7 +190,7 @@ def test_a_first_grid_that_has_not_converged_shows_no_order(
         trace.central.values += [film, film]
         trace.minimum.values += [film - left * 0.7 / 0.3, film]
         trace.reports.append(report(1, 1e-6))
-    assert (extrapolated_bars(traces, 3) is not None) is extrapolated
+    assert (extrapolated_bars(traces, 3, least) is not None) is extrapolated
 
 
 def test_a_minimum_on_which_two_grids_agree_by_chance_keeps_its_bar() -> None:
