@@ -13,7 +13,7 @@ import sys
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -267,6 +267,7 @@ def _any_case(letter: str) -> str:
     return f"[{letter}{letter.upper()}]" if letter.isalpha() else letter
 
 
+@lru_cache(maxsize=2048)  # all names of a library, for each that is looked up
 def _plain(name: str) -> str:
     """Return a name without what people write differently: capitals, blanks, hyphens, dots."""
     return re.sub(_SEPARATORS, "", name.lower())

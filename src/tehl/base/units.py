@@ -94,6 +94,7 @@ def is_unit(text: str) -> bool:
     return True
 
 
+@lru_cache(maxsize=512)  # lists state the same units in each row
 def _read_unit(text: str) -> tuple[float, Dimension]:
     """Return factor to SI and dimension of a unit such as ``W/m/K`` or ``1/(Pa s)``.
 
