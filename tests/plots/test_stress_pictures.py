@@ -11,7 +11,6 @@ from tehl.contact.stress import Stress
 from tehl.plots import pictures_of
 from tehl.plots.animation import Movie
 from tehl.plots.stress import DEEPEST_SHOWN, dress, moving_section, stress_section
-from tehl.post.stress.below import with_stress
 from tehl.post.stress.moving import moving_stress
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_transient
@@ -24,7 +23,7 @@ def asking(result):
 
 
 def test_the_section_has_the_largest_shear_and_profiles_of_the_dry_contact():
-    found = with_stress(asking(make_result(65)))
+    found = asking(make_result(65)).with_stress()
     assert "stress" in pictures_of(found)
     axes = stress_section(found).axes
     body = found.stress_numbers.worse

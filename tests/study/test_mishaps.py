@@ -39,7 +39,7 @@ def is_like(frame, undisturbed) -> bool:
 def test_a_case_that_kills_its_worker_fails_alone(tmp_path, monkeypatch, undisturbed):
     monkeypatch.setattr(runner, "work", mishaps.deadly)
     store = Store(tmp_path)
-    outcome = run(cases(COUNT), store, jobs=2)
+    outcome = run(cases(COUNT), store, jobs=2, forked=True)
     assert [(c.labels["M"], r.status, r.cause) for c, r in outcome.failed] == [
         (5.5, "failed", "worker_died")
     ]
@@ -54,7 +54,7 @@ def test_a_case_that_kills_its_worker_fails_alone(tmp_path, monkeypatch, undistu
 def test_a_worker_killed_from_outside_loses_no_case(tmp_path, monkeypatch, undisturbed):
     monkeypatch.setattr(runner, "work", mishaps.once)
     store, notes = Store(tmp_path, keep="fields"), Notes()
-    outcome = run(cases(COUNT), store, jobs=2, monitor=notes)
+    outcome = run(cases(COUNT), store, jobs=2, forked=True, monitor=notes)
     assert outcome.failed == ()
     assert len(notes.names) == COUNT
     assert is_like(table(cases(COUNT), store), undisturbed)
@@ -103,7 +103,7 @@ def test_workers_have_one_thread_and_forked_ones_begin_with_the_solver(forked):
 
 
 def test_a_dead_worker_takes_no_other_task_along():
-    with engine_of(2, 2) as engine:
+    with engine_of(2, 2, forked=True) as engine:
         engine.submit("dies", os._exit, 3)
         engine.submit("stays", time.sleep, 0.3)
         first, second = engine.take(), engine.take()
@@ -148,10 +148,10 @@ def finished(folder: Path) -> int:
     ("how", "forked"),
     [
         (signal.SIGKILL, "forked"),
-        (signal.SIGINT, ""),
-        pytest.param(signal.SIGKILL, "", marks=pytest.mark.slow),
-        pytest.param(signal.SIGTERM, "forked", marks=pytest.mark.slow),
         pytest.param(signal.SIGINT, "forked", marks=pytest.mark.slow),
+        pytest.param(signal.SIGTERM, "forked", marks=pytest.mark.slow),
+        pytest.param(signal.SIGKILL, "", marks=pytest.mark.slow),
+        pytest.param(signal.SIGINT, "", marks=pytest.mark.slow),
     ],
 )
 def test_a_killed_program_continues_where_it_stopped(tmp_path, undisturbed, how, forked):
@@ -229,7 +229,7 @@ def test_a_full_disk_under_the_fields_does_not_fail_the_case(
     monkeypatch.setattr(runner, "work", mishaps.full)
     store = Store(tmp_path, keep="fields")
     with pytest.raises(OSError, match="No space left"):
-        run(cases(COUNT), store, jobs=jobs)
+        run(cases(COUNT), store, jobs=jobs, forked=True)
     assert store.row(cases(COUNT)[2]) is None
     monkeypatch.setattr(runner, "work", mishaps.quick)
     assert run(cases(COUNT), store).converged == COUNT

@@ -20,7 +20,6 @@ from tehl.post.heat import Temperature, temperature
 from tehl.post.rolling import Rolling, rolling_friction
 from tehl.post.roughness import RoughFilm, rough_film
 from tehl.post.starvation import Starvation, starvation
-from tehl.post.stress.below import stress_below
 from tehl.post.stress.numbers import StressNumbers, stress_numbers
 from tehl.post.summits import LoadSharing, load_sharing
 from tehl.post.traction import Traction, traction
@@ -34,8 +33,10 @@ if TYPE_CHECKING:
 
     from tehl.io import store
     from tehl.io import summary as summaries
+    from tehl.post.stress import below
     from tehl.report import notebook
 else:
+    below = lazy("tehl.post.stress.below")
     store, summaries = lazy("tehl.io.store"), lazy("tehl.io.summary")
     notebook = lazy("tehl.report.notebook")
 
@@ -120,7 +121,7 @@ class Result(Saved, Solution):
         """
         table = Stress(**settings) if settings else self.problem.stress or Stress()
         problem = self.problem.model_copy(update={"stress": table})
-        return self.but(problem=problem, stress=stress_below(self, table))
+        return self.but(problem=problem, stress=below.stress_below(self, table))
 
     @property
     def stress_numbers(self) -> StressNumbers | None:

@@ -3,14 +3,19 @@
 from collections.abc import Callable
 from functools import update_wrapper
 from inspect import signature
-from typing import ParamSpec, TypeVar
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from tehl import solver
 from tehl.api.results import Result, TransientResult, failures_with_results
-from tehl.post.stress.below import with_stress
+from tehl.base.lazy import lazy
 from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
 from tehl.solver import with_work
+
+if TYPE_CHECKING:
+    from tehl.post.stress import below
+else:
+    below = lazy("tehl.post.stress.below")
 
 __all__ = [
     "certify",
@@ -40,12 +45,19 @@ def _giving(result_of: Callable[[Plain], Whole], solve: Callable[P, Plain]) -> C
     return solved
 
 
+def _with_stress(solution: Solution) -> Solution:
+    """Return a solution with the stress that its case asks for."""
+    if solution.problem.stress is None or solution.stress is not None:
+        return solution
+    return solution.but(stress=below.stress_below(solution))
+
+
 def _steady(solution: Solution) -> Result:
-    return Result.of(with_stress(solution))
+    return Result.of(_with_stress(solution))
 
 
 def _transient(solution: TransientSolution) -> TransientResult:
-    start = with_stress(solution.start)
+    start = _with_stress(solution.start)
     return TransientResult.of(solution if start is solution.start else solution.but(start=start))
 
 

@@ -126,13 +126,6 @@ def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress
     )
 
 
-def with_stress(result: Solution) -> Solution:
-    """Return a result with the stress that its case asks for."""
-    if result.problem.stress is None or result.stress is not None:
-        return result
-    return result.but(stress=stress_below(result))
-
-
 class Marched(NamedTuple):
     """What is kept of all depths."""
 
