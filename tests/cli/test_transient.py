@@ -117,7 +117,7 @@ points = 65
 """
 
 
-@pytest.mark.parametrize("warm", [False, True])
+@pytest.mark.parametrize("warm", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_a_killed_run_continues_bit_by_bit(folder, run, warm):
     if warm:
         oil = CASE.replace('"22 1/GPa" }', '"22 1/GPa", gamma = "0.042 1/K" }')
@@ -142,16 +142,15 @@ def test_a_killed_run_continues_bit_by_bit(folder, run, warm):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-def test_a_terminated_run_keeps_its_last_step(folder, number):
+@pytest.mark.parametrize(
+    "number", [signal.SIGTERM, pytest.param(signal.SIGINT, marks=pytest.mark.slow)]
+)
+def test_a_terminated_run_keeps_its_last_step(folder, run, monkeypatch, number):
     job = stopped_by(number, folder, 2)
     assert job.returncode == 128 + number
     assert "tehl solve --resume continues from it" in job.err
     assert names(folder) == ["wave.nc.checkpoint", "wave.toml"]
-
-
-def test_a_checkpoint_of_another_version_is_rejected(folder, run, monkeypatch):
-    stopped_by(signal.SIGTERM, folder, 2)
+    # which another version does not take
     monkeypatch.setattr("tehl.io.checkpoint.__version__", "9.9.9")
     done = run("solve", "wave.toml", "--resume")
     assert done.code == 2
