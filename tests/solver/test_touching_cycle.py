@@ -12,13 +12,16 @@ from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.influence import dense_matrix
+from tehl.operators.jacobian import neighbours_of
 from tehl.solver import steady
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import TOUCHING
 from tehl.solver.cycle.relaxation import ROUGH
 from tehl.solver.cycle.start import from_dry_pressure
 from tehl.solver.judging.convergence import DivergedError
+from tehl.solver.physics.boundary_contact import choose_orders, oil_step
 from tehl.solver.physics.boundary_cycle import TouchingCycle
+from tehl.solver.physics.share import contact_of
 from tests.reference import moes_contact
 from tests.solver.rough import wavy
 from tests.solver.test_touching import through_film
@@ -91,6 +94,30 @@ def test_the_response_keeps_the_contact_closed(mirror: bool):
     taken = level.load_error() * level.sources.load
     assert taken - load == pytest.approx(0.01 * response.stiffness, rel=1e-9)
     assert answered == pytest.approx(taken, rel=1e-9)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_an_oil_step_is_that_of_newtons_method_where_surfaces_touch(order: int):
+    """A small part of the step takes that part of the residual away, at fixed film."""
+    problem = through_film(moes_contact(100.0, 5.0), 0.5)
+    grid = Grid(nx=65, ny=65, domain=SQUARE, mirror=True)
+    options = Options(points=65, edges="zero", domain=SQUARE, deformation="fft")
+    level = Hierarchy.on(grid, ScaledProblem.of(problem), options, ROUGH).finest
+    from_dry_pressure(level, 0.1)
+    level.set_state(0.4 * level.film.p, level.rigid_approach - 0.8)
+    level.update()
+    choose_orders(level, order)
+    touching, part = contact_of(level.share).touching & (level.film.p > 0.0), 1e-7
+    assert touching.sum() > 400
+    level.evaluate_residual()
+    before = level.residual.copy()
+    change = oil_step(level, neighbours_of(grid, level.stencil), touching)
+    assert (change[~touching] == 0.0).all()
+    level.film.p[:] += part * change
+    level.update_properties()
+    level.evaluate_residual()
+    taken = (before - level.residual)[touching] / part
+    assert taken == pytest.approx(before[touching], abs=1e-4 * np.abs(before).max())
 
 
 def test_a_film_that_is_not_finite_has_diverged():

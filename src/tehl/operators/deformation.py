@@ -7,6 +7,7 @@ from typing import Protocol
 from weakref import WeakValueDictionary
 
 import numpy as np
+from scipy.fft import dctn, idctn
 
 from tehl.base.typing import Array
 from tehl.contact.shape import LINE
@@ -99,20 +100,35 @@ class FftDeformation:
         out[:] = self.convolved[:ny, :nx]
 
 
-class FftFlattening(FftDeformation):
-    """Pressure that makes a deflection, by division of the transforms.
+class Flattening:
+    """Pressure that makes a deflection, by division of the cosine transforms.
 
-    The inverse of K on the periodic plane, an approximate one on a part of it: it preconditions the
-    equations of a contact.
+    The inverse of K where the pressure is mirrored at the edges, an approximate one on a part of
+    the plane: it preconditions the equations of a contact.
     """
 
     LEAST = 1e-6
     """Least part of the spectrum over its largest value."""
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
-        super().__init__(grid, groups)
-        size = np.abs(self.spectrum)  # of a line contact that of the mean may be negative
-        self.spectrum = 1.0 / np.maximum(size, self.LEAST * size.max())
+        self.axes = (0, 1) if grid.ny > 1 else (1,)
+        table = influence_of(grid, groups).table(*grid.shape)
+        size = np.abs(dctn(table, 1, axes=self.axes))  # of a line that of the mean may be negative
+        self.spectrum = np.maximum(size, self.LEAST * size.max())
+
+    def deflect(self, film: Array, out: Array) -> None:
+        """Write the pressure that makes ``film`` to ``out``.
+
+        Parameters
+        ----------
+        film : Array
+            Deflection at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
+        out : Array
+            Overwritten by the pressure [-], (ny, nx).
+        """
+        parts = dctn(film, 1, axes=self.axes)
+        parts /= self.spectrum
+        out[:] = idctn(parts, 1, axes=self.axes, overwrite_x=True)
 
 
 class LineDeformation:

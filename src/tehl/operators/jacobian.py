@@ -11,7 +11,7 @@ L_P and L_H are sparse; K couples all nodes and is applied, never assembled.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import csr_matrix, diags, kron
+from scipy.sparse import csr_matrix, kron
 
 from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
@@ -34,6 +34,12 @@ class Neighbours(NamedTuple):
     south: csr_matrix
     upstream: csr_matrix
     open_west: Array | float = 1.0
+
+    def at(self, nodes: Array) -> "Neighbours":
+        """Return those of some nodes only."""
+        matrices = (matrix[nodes] for matrix in self[:-1])
+        west = np.broadcast_to(self.open_west, self.here.shape[0])[nodes]
+        return Neighbours(*matrices, open_west=west)
 
 
 class Cavity(NamedTuple):
@@ -240,7 +246,7 @@ def _sides(
     eps_x, eps_y = film.eps_x.ravel(), film.eps_y.ravel()
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
     south, north = (
-        half_y * np.repeat(one, film.p.shape[1]) if one.size else half_y
+        half_y * (n.here @ np.repeat(one, film.p.shape[1])) if one.size else half_y
         for one in (film.south, film.north)
     )
     return ((n.east, half_x, eps_x, 1), (n.west, half_x * n.open_west, eps_x, -1),
@@ -275,7 +281,11 @@ def _slopes(stencil: Stencil, here: Array, there: Array, way: int) -> tuple[Arra
 
 
 def flux_difference(
-    film: Film, stencil: Stencil, grid: Grid, onward: csr_matrix | None = None
+    film: Film,
+    stencil: Stencil,
+    grid: Grid,
+    onward: Array | None = None,
+    nodes: Array | None = None,
 ) -> csr_matrix:
     """Return the matrix of the wedge by fluxes of oil through cell faces, over the oil at nodes.
 
@@ -291,33 +301,41 @@ def flux_difference(
         Weights of the operator.
     grid : Grid
         On mirrored grids the row y = 0 is an inner one.
-    onward : csr_matrix or None
-        Selects the node whose flux each node passes on; itself if None.
+    onward : array of int, ``grid.shape``, or None
+        Column of the node whose flux each node passes on, -1 for none; itself if None.
+    nodes : array of int or None
+        Nodes of the rows; all if None.
     """
-    every = np.ones(grid.shape, bool)
-    west, here = neighbour(grid, every, 0, -1), rows(np.ones(every.size))
-    east = neighbour(grid, every, 0, 1)
-    marks = np.where(film.partial > 0, 0, film.second).ravel()
-    passed = here + rows(np.where(marks > 0, 0.5, 0.0)) @ (here - west)
+    nx, marks = grid.nx, np.where(film.partial > 0, 0, film.second)
+    bent = np.zeros(grid.shape)
     if stencil.third > 0.0:
-        third = np.broadcast_to(stencil.third * grid.dx, grid.shape).copy()
-        third[:, stencil.fore :] *= 0.5
-        third = np.where(marks == MARK_THIRD_ORDER, third.ravel(), 0.0)
-        passed = passed + rows(third) @ (east - 2.0 * here + west)
+        bent[marks == MARK_THIRD_ORDER] = stencil.third * grid.dx
+        bent[:, stencil.fore :] *= 0.5
+    steep = np.where(marks > 0, 0.5, 0.0)
+    west, here, east = bent - steep, 1.0 + steep - 2.0 * bent, bent
     if stencil.w2 > 0.0:
-        first = np.zeros(grid.shape)
-        first[:, 0] = (film.partial[:, 0] == 0) & (film.partial[:, 1] == 0)
-        passed = rows(1.0 - first.ravel()) @ passed + rows(0.5 * first.ravel()) @ (here + east)
-    inner = np.zeros(grid.shape)
-    inner[grid.inner] = 1.0 / grid.dx
-    if onward is not None:
-        passed = onward @ passed
-    return csr_matrix(rows(inner.ravel()) @ (here - west) @ passed)
+        full = (film.partial[:, 0] == 0) & (film.partial[:, 1] == 0)
+        here[full, 0] = east[full, 0] = 0.5
+    inner = np.zeros(grid.shape, bool)
+    inner[grid.inner] = True
+    of = np.arange(inner.size) if nodes is None else nodes
+    row = np.nonzero(inner.ravel()[of])[0]
+    j, i = np.divmod(of[row], nx)
+    parts = []
+    for column, sign in ((i, 1.0), (i - 1, -1.0)):
+        source = column if onward is None else onward[j, column]
+        for weight, step in ((west, -1), (here, 0), (east, 1)):
+            there, size = source + step, sign / grid.dx * weight[j, source]
+            kept = (source >= 0) & (there >= 0) & (there < nx) & (size != 0.0)
+            parts.append((size[kept], row[kept], (j * nx + there)[kept]))
+    sizes, rows_of, columns = (np.concatenate(part) for part in zip(*parts, strict=True))
+    return csr_matrix((sizes, (rows_of, columns)), shape=(of.size, inner.size))
 
 
 def rows(weights: Array) -> csr_matrix:
     """Return the diagonal matrix of ``weights``."""
-    return diags(weights, format="csr")
+    size = weights.size
+    return csr_matrix((weights, np.arange(size), np.arange(size + 1)), shape=(size, size))
 
 
 def interpolation(fine: Grid, coarse: Grid) -> csr_matrix:

@@ -18,7 +18,7 @@ from scipy.sparse.linalg import MatrixRankWarning, spsolve
 
 from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
-from tehl.operators.jacobian import jacobian, neighbours_of
+from tehl.operators.jacobian import Neighbours, jacobian, neighbours_of
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.linearised import conductance_slopes
 from tehl.solver.cycle.newton import one_thread
@@ -150,18 +150,8 @@ def close_balance(level: Level) -> bool:
     for _ in range(2):
         level.evaluate_residual()
         free = (film.p > 0.0) & (neighbours.here.diagonal() > 0.0).reshape(film.p.shape)
-        by_pressure, _ = jacobian(
-            film,
-            level.stencil,
-            transport(level, neighbours),
-            *conductance_slopes(level),
-        )
-        nodes = np.nonzero(free.ravel())[0]
-        matrix = csc_matrix(by_pressure[nodes][:, nodes])
-        change: Array = np.zeros(film.p.size)
-        with warnings.catch_warnings(action="ignore", category=MatrixRankWarning):
-            change[nodes] = spsolve(matrix, level.residual.ravel()[nodes])
-        moved = film.p + change.reshape(film.p.shape)
+        change = oil_step(level, neighbours, free)
+        moved = film.p + change
         if not np.abs(change).max() < LARGEST_CLOSING:
             film.p[:], film.asperity[:] = before[0], before[2]
             level.update_properties()
@@ -175,6 +165,28 @@ def close_balance(level: Level) -> bool:
         film.p[:] = moved
         level.update_properties()
     return True
+
+
+def oil_step(level: Level, neighbours: Neighbours, where: BoolArray) -> Array:
+    """Return a Newton step of the oil pressure at fixed film, ``grid.shape``; zero elsewhere.
+
+    Parameters
+    ----------
+    level : Level
+        Its residual is evaluated.
+    neighbours : Neighbours
+        Of its grid.
+    where : array of bool
+        Nodes whose pressure changes.
+    """
+    film, nodes = level.film, np.nonzero(where.ravel())[0]
+    near, slopes = transport(level, neighbours, nodes), conductance_slopes(level)
+    by_pressure, _ = jacobian(film, level.stencil, near, *slopes)
+    change: Array = np.zeros(film.p.size)
+    with warnings.catch_warnings(action="ignore", category=MatrixRankWarning):
+        matrix = csc_matrix(by_pressure[:, nodes])
+        change[nodes] = spsolve(matrix, level.residual.ravel()[nodes])
+    return change.reshape(film.p.shape)
 
 
 def choose_orders(level: Level, order: int = 2) -> None:

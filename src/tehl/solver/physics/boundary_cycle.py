@@ -7,31 +7,33 @@ along (`tehl.solver.physics.share.Response`). Two problems follow on the finest 
 
 1. contact, at fixed oil pressure: P_c >= 0 and H >= H_c by the primal-dual active set
    (Hintermüller, Ito and Kunisch 2002), each set by conjugate gradients with the deflection of the
-   grid, preconditioned by its inverse on the periodic plane;
+   grid, preconditioned by its inverse between mirrors at the edges;
 2. oil between surfaces that touch, at fixed film: relaxation by lines, and a sparse factorisation
    where patches are so wide that it is slow; the sum of both pressures stays.
 
 A last sweep over the finest grid relaxes what both have changed.
 """
 
-import warnings
 from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
-from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import LinearOperator, MatrixRankWarning, cg, spsolve
+from scipy.sparse.linalg import LinearOperator, cg
 
 from tehl.base.typing import Array
-from tehl.operators.deformation import FftFlattening
-from tehl.operators.jacobian import jacobian, neighbours_of
+from tehl.operators.deformation import Flattening
+from tehl.operators.jacobian import neighbours_of
 from tehl.solver.cycle.level import Level
-from tehl.solver.cycle.linearised import conductance_slopes
 from tehl.solver.cycle.newton import one_thread
 from tehl.solver.cycle.relaxation import LineSmoother, Relaxation
 from tehl.solver.judging.convergence import DivergedError
-from tehl.solver.physics.boundary_contact import choose_orders, close_balance, lower_orders
-from tehl.solver.physics.boundary_system import OPENING, transport
+from tehl.solver.physics.boundary_contact import (
+    choose_orders,
+    close_balance,
+    lower_orders,
+    oil_step,
+)
+from tehl.solver.physics.boundary_system import OPENING
 from tehl.solver.physics.share import Response, contact_of
 
 FIXED_FILM = Relaxation(name="fixed film", threshold=0.0, point=1.0, dipole=0.0, stiff=True)
@@ -72,7 +74,7 @@ class TouchingCycle:
         grid, self.share = self.level.grid, contact_of(self.level.share)
         self.number, self.is_balanced = 0, False
         self.neighbours = neighbours_of(grid, self.level.stencil)
-        self.flattening = FftFlattening(grid, self.level.equations.groups)
+        self.flattening = Flattening(grid, self.level.equations.groups)
         lines = np.full(grid.shape, 1.0 + grid.mirror)
         lines[0] = 1.0
         self.roots = np.sqrt(lines)  # of the number of lines, with images: K is symmetric by them
@@ -227,7 +229,9 @@ class TouchingCycle:
             np.minimum(film.p, both + OPENING, out=film.p, where=touching)
             level.update_properties()
         if self.number and self._oil_residual() > SLOW_OIL * before:
-            moved = np.minimum(film.p + self._oil_step(), both + OPENING)
+            step = np.nan_to_num(oil_step(level, self.neighbours, touching & (film.p > 0.0)))
+            step = np.clip(step, -LARGEST_OIL_STEP, LARGEST_OIL_STEP)
+            moved = np.minimum(film.p + step, both + OPENING)
             film.p[:] = np.where(touching, np.maximum(moved, 0.0), film.p)
             level.update_properties()
         film.asperity[:] = np.where(touching, both - film.p, film.asperity)
@@ -236,17 +240,3 @@ class TouchingCycle:
         """Return the sum of the residuals of the Reynolds equation where surfaces touch [-]."""
         self.level.evaluate_residual()
         return float(np.abs(self.level.residual[self.share.touching]).sum())
-
-    def _oil_step(self) -> Array:
-        """Return a Newton step of the oil pressure where surfaces touch, limited, else zero [-]."""
-        level, film = self.level, self.level.film
-        nodes = np.nonzero((self.share.touching & (film.p > 0.0)).ravel())[0]
-        neighbours = transport(level, self.neighbours)
-        slopes = conductance_slopes(level)
-        by_pressure, _ = jacobian(film, level.stencil, neighbours, *slopes)
-        change: Array = np.zeros(film.p.size)
-        with warnings.catch_warnings(action="ignore", category=MatrixRankWarning):
-            matrix = csc_matrix(by_pressure[nodes][:, nodes])
-            change[nodes] = spsolve(matrix, level.residual.ravel()[nodes])
-        change = np.nan_to_num(change, nan=0.0).reshape(film.p.shape)
-        return np.clip(change, -LARGEST_OIL_STEP, LARGEST_OIL_STEP)

@@ -11,7 +11,7 @@ of H00 (docs/theory/contact.md):
 At a touching node the film is known, so the first equation is that of u alone and the second that
 of v. The Krylov method is that of `tehl.solver.cycle.newton`. Where surfaces touch, and where the
 oil conducts so little that it carries its film along, the film is known and the pressure makes it:
-both are preconditioned by the inverse of K on the periodic plane.
+both are preconditioned by the inverse of K between mirrors at the edges.
 """
 
 import numpy as np
@@ -22,7 +22,7 @@ from scipy.sparse.linalg import LinearOperator, SuperLU, gcrotmk, splu
 from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
 from tehl.kernels import reynolds
-from tehl.operators.deformation import FftFlattening
+from tehl.operators.deformation import Flattening
 from tehl.operators.jacobian import Neighbours, flux_difference, jacobian, neighbour, rows
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.linearised import conductance_slopes
@@ -51,7 +51,7 @@ class TouchingOperators(Newton):
 
     def __init__(self, level: Level, coarse: Grid) -> None:
         super().__init__(level, coarse)
-        self.flattening = FftFlattening(level.grid, level.equations.groups)
+        self.flattening = Flattening(level.grid, level.equations.groups)
         self.close_influence = close_influence(level)
 
 
@@ -287,7 +287,7 @@ def beside(matrix: csr_matrix, nx: int) -> csc_matrix:
     return csc_matrix((entries.data[near].astype(np.float32), places), shape=matrix.shape)
 
 
-def transport(level: Level, neighbours: Neighbours) -> Neighbours:
+def transport(level: Level, neighbours: Neighbours, nodes: Array | None = None) -> Neighbours:
     """Return ``neighbours`` with the wedge of a level: by fluxes, or that of a time step.
 
     Parameters
@@ -296,24 +296,25 @@ def transport(level: Level, neighbours: Neighbours) -> Neighbours:
         With the marks of partly filled nodes and of the orders of fluxes.
     neighbours : Neighbours
         Of its grid.
+    nodes : array of int or None
+        Nodes whose neighbours are returned; all if None.
     """
+    found = neighbours if nodes is None else neighbours.at(nodes)
     if not level.balance.conserves:
-        return neighbours
+        return found
     partial = level.film.partial > 0
     before = np.zeros_like(partial)
     before[:, 1:] = partial[:, :-1]
     is_open = np.where(before & ~partial, 0.0, 1.0).ravel()
-    flux = flux_difference(level.film, level.stencil, level.grid, _last_full(level))
-    return neighbours._replace(upstream=flux, open_west=is_open)
+    flux = flux_difference(level.film, level.stencil, level.grid, _last_full(level), nodes)
+    return found._replace(upstream=flux, open_west=is_open if nodes is None else is_open[nodes])
 
 
-def _last_full(level: Level) -> csr_matrix:
-    """Return the matrix that selects each full node, and for a partly filled one that upstream."""
-    partial, (ny, nx) = level.film.partial > 0, level.grid.shape
-    last = np.maximum.accumulate(np.where(partial, -1, np.arange(nx)), axis=1)
-    j, i = np.nonzero(last >= 0)
-    places = (j * nx + i, j * nx + last[j, i])
-    return csr_matrix((np.ones(j.size), places), shape=(ny * nx, ny * nx))
+def _last_full(level: Level) -> Array:
+    """Return the column of each full node, and for a partly filled one of that upstream."""
+    partial = level.film.partial > 0
+    found: Array = np.where(partial, -1, np.arange(level.grid.nx))
+    return np.maximum.accumulate(found, axis=1)
 
 
 def close_influence(level: Level) -> csr_matrix:
