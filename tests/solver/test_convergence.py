@@ -1,5 +1,6 @@
 """Estimated iteration errors of damped cycles, error bars between rough surfaces, damping."""
 
+from dataclasses import replace
 from unittest.mock import Mock
 
 import numpy as np
@@ -42,6 +43,22 @@ def test_the_iteration_error_of_a_damped_cycle_is_not_underestimated(damping: fl
 def test_a_damping_factor_of_one_changes_nothing() -> None:
     trace = GridTrace(damping=1.0)
     assert (trace.least_cycles, trace.central.least_rate) == (LEAST_CYCLES, LEAST_CONVERGENCE_RATE)
+
+
+@pytest.mark.parametrize(("single", "share", "ends"), [(0.9, 0.41, True), (0.9, 0.46, False)])
+def test_the_share_of_contact_and_not_single_nodes_ends_cycles_where_surfaces_touch(
+    single: float, share: float, ends: bool
+) -> None:
+    """It has changed by 0.2 from the coarser grid: a ninth of that may be left."""
+    coarse, fine = GridTrace(), GridTrace(steady=1e-3, largest_change=0.01)
+    for trace, shares in ((coarse, (0.6, 0.6)), (fine, (0.42, share))):
+        for cycle, touching in enumerate(shares, start=1):
+            trace.add(report(cycle, 10.0**-cycle), touching)
+    last = replace(fine.reports[-1], change=single, mean_change=5e-3)
+    fine.reports[-1] = last
+    assert film_converged(fine, coarse) == ends
+    fine.reports[-1] = replace(last, mean_change=0.02)
+    assert not film_converged(fine, coarse)
 
 
 @pytest.mark.parametrize(("coarse", "bar"), [(0.010, 0.35), (0.0, 0.70), (-0.020, 2.0)])

@@ -109,7 +109,7 @@ class GridIteration:
         trace.note(*nodal_film(fine))
         for number in range(1, self._most_steps(levels, method) + 1):
             method.begin()
-            trace.add(self._iteration(levels, method.step, number + done))
+            trace.add(self._iteration(levels, method.step, number + done), method.touching_share())
             if self._is_done(trace, finest=finest):
                 return
             method.combine()
@@ -150,12 +150,12 @@ class GridIteration:
     def _finish(self, levels: Sequence[Level]) -> None:
         """Make the last of ``levels`` the finest, and iterate until it has converged or stalled."""
         del self.levels[len(levels) :]
-        trace = self.traces[-1]
+        trace, method = self.traces[-1], method_of(self._visit(levels))
         while not self._is_done(trace, finest=True):
             number = len(trace.reports) + 1
             if number > self.options.max_cycles:
                 return
-            trace.add(self._iteration(levels, partial(self.hierarchy.cycle, levels), number))
+            trace.add(self._iteration(levels, method.step, number), method.touching_share())
 
     def _is_done(self, trace: GridTrace, *, finest: bool) -> bool:
         """Return whether the iteration on a grid has converged or stalled."""

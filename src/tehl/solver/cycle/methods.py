@@ -38,9 +38,9 @@ MOST_TOUCHING = 30
 """The same where surfaces may touch, also in Newton steps: the nodes that do change for some."""
 MOST_COMBINED = 20
 """The same where cycles are combined between asperities finer than the grid: it takes some."""
-STEADY = 1e-3
+STEADY, SETTLED = 1e-3, 0.01
 """Mean change of the pressure that ends the cycles on a grid where surfaces may touch and that has
-no comparable coarser grid."""
+no comparable coarser grid, and beyond which it is not converging on any."""
 FIRST_ORDER = 64
 """Nodes along x below which grids of surfaces that may touch have a wedge of first order: they only
 provide the start, and thin films have no solution of second order there."""
@@ -127,6 +127,10 @@ class Cycles:
         if self.anderson is not None:
             self.before = unknowns(self.visit.fine)
 
+    def touching_share(self) -> float:
+        """Return the part of the load where surfaces touch [-]."""
+        return 0.0
+
     def combine(self) -> None:
         """Replace the state by a combination with earlier ones."""
         if self.anderson is None:
@@ -182,7 +186,7 @@ class ContactCycles(Cycles):
 
     def __init__(self, visit: Visit) -> None:
         super().__init__(visit)
-        self.largest_change = LARGEST_CYCLE_CHANGE  # a node that parts changes more
+        self.largest_change = SETTLED  # a node that parts changes more
         # a grid that does not resolve the heights is smoother than stated: nothing touches there
         self.is_smoother = visit.roughness.is_rough and not visit.is_rough
         visit.fine.share.stays = self.is_smoother
@@ -190,6 +194,11 @@ class ContactCycles(Cycles):
             closing = visit.balanced_below if visit.is_last else 0.0
             self.touching = TouchingCycle(visit.hierarchy.chain(visit.levels), self.cycle, closing)
             self.step = self.touching.step
+
+    def touching_share(self) -> float:
+        """Return the part of the load where surfaces touch [-]."""
+        fine = self.visit.fine
+        return fine.share.parts(fine)["contact_share"]
 
     def raise_heights(self, iterate: Iterate) -> None:
         """Raise the heights; the orders of the fluxes are chosen again with all of them."""

@@ -38,6 +38,8 @@ and minimum film do not show."""
 LARGEST_KELVIN_CHANGE = 0.1
 """Change of temperature per cycle at any node, over the largest rise, beyond which the temperature
 is not converged. Nodes at the spike change most, and matter least."""
+SHARE_ERROR = 2e-3
+"""Iteration error of the part of the load where surfaces touch that is always accepted [-]."""
 RISE_ERROR = 0.005
 """Relative iteration error of the largest rise that is always accepted."""
 LEAST_KELVIN = 0.02
@@ -114,20 +116,22 @@ class Trace:
 
 @dataclass(slots=True)
 class GridTrace:
-    """Film and temperature rise over the cycles on one grid, with the reports of the cycles.
+    """Film, temperature rise and share of contact over the cycles on one grid, with their reports.
 
     ``measured`` has further values after the last cycle (`tehl.solver.judging.measures`).
     ``damping`` is the damping factor of heat and thinning between rough surfaces, 1 is undamped: no
     convergence rate is below 1 - damping. ``negligible`` is the relative iteration error of the
     film that is always accepted. Without a coarser film to compare, a mean change of ``steady`` is
-    accepted: where surfaces touch, single nodes change by more. A grid on which the iteration
-    ``diverged`` is not compared with others. ``outputs`` are the fields to extrapolate; then the
-    iteration error may be ``part`` of what it may be without.
+    accepted: where surfaces touch, single nodes change by more, and ``largest_change`` is that of
+    the mean. A grid on which the iteration ``diverged`` is not compared with others. ``outputs``
+    are the fields to extrapolate; then the iteration error may be ``part`` of what it may be
+    without.
     """
 
     central: Trace = field(default_factory=Trace)
     minimum: Trace = field(default_factory=Trace)
     rise: Trace = field(default_factory=Trace)
+    touching: Trace = field(default_factory=Trace)
     reports: list[CycleReport] = field(default_factory=list)
     measured: dict[str, float] = field(default_factory=dict)
     largest_change: float = LARGEST_CYCLE_CHANGE
@@ -141,7 +145,7 @@ class GridTrace:
 
     def __post_init__(self) -> None:
         self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / self.damping))
-        for trace in (self.central, self.minimum, self.rise):
+        for trace in (self.central, self.minimum, self.rise, self.touching):
             trace.least_rate = max(LEAST_CONVERGENCE_RATE, 1.0 - self.damping)
 
     def note(self, central: float, minimum: float) -> None:
@@ -155,9 +159,18 @@ class GridTrace:
         self.central.values.append(central)
         self.minimum.values.append(minimum)
 
-    def add(self, report: CycleReport) -> None:
-        """Append film and temperature rise after a cycle, and its report."""
+    def add(self, report: CycleReport, touching: float = 0.0) -> None:
+        """Append film, temperature rise and the part of the load in contact after a cycle.
+
+        Parameters
+        ----------
+        report : CycleReport
+            Of the cycle.
+        touching : float
+            Part of the load where surfaces touch [-].
+        """
         self.reports.append(report)
+        self.touching.values.append(touching)
         self.note(report.film_central, report.film_minimum)
         self.rise.values.append(report.temperature_rise)
 
@@ -240,13 +253,16 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
         last.change > ROUNDING_CHANGE and last.residual > least * now.reports[-2].residual
     ):  # its changes are not errors yet
         return False
-    if abs(last.load_error) > LARGEST_LOAD_ERROR or last.change > now.largest_change:
+    change = last.mean_change if now.steady else last.change
+    if abs(last.load_error) > LARGEST_LOAD_ERROR or change > now.largest_change:
         return False
     if coarser is None:  # without a discretisation error: a change of 1e-3 Hertz pressures
         return last.change < now.damping * 1e-3 or last.mean_change < now.steady
     pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
     # discretisation error of second order: a third of the change from the coarser grid
     limit = max(abs(a.values[-1] - b.values[-1]) / 3.0 for a, b in pairs) / 3.0
+    if not touching_converged(now, coarser):
+        return False
     # of two numbers the one with the smaller discretisation error may take a tenth of the limit
     return all(
         a.iteration_error()
@@ -256,6 +272,22 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
         )
         for a, b in pairs
     )
+
+
+def touching_converged(now: GridTrace, coarser: GridTrace) -> bool:
+    """Whether the iteration error of the share of contact is a third of its discretisation error.
+
+    Or below `SHARE_ERROR`.
+
+    Parameters
+    ----------
+    now, coarser : GridTrace
+        This grid, and the next coarser one.
+    """
+    shares, before = now.touching, coarser.touching.values[-1:]
+    # second order: a third of the change from the coarser grid
+    discretisation = abs(shares.values[-1] - before[0]) / 3.0 if before else 0.0
+    return shares.iteration_error() <= max(discretisation / 3.0, SHARE_ERROR)
 
 
 def stalled(now: GridTrace, patience: int = 1) -> bool:
