@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.sparse import csr_matrix, kron
 
-from tehl.base.typing import Array, BoolArray
+from tehl.base.typing import Array, BoolArray, IntArray
 from tehl.estimate.grid import Grid
 from tehl.kernels.properties import Film
 from tehl.kernels.reynolds import MARK_THIRD_ORDER, Stencil
@@ -35,11 +35,10 @@ class Neighbours(NamedTuple):
     upstream: csr_matrix
     open_west: Array | float = 1.0
 
-    def at(self, nodes: Array) -> "Neighbours":
+    def at(self, nodes: IntArray) -> "Neighbours":
         """Return those of some nodes only."""
-        matrices = (matrix[nodes] for matrix in self[:-1])
         west = np.broadcast_to(self.open_west, self.here.shape[0])[nodes]
-        return Neighbours(*matrices, open_west=west)
+        return Neighbours._make((*(matrix[nodes] for matrix in self[:-1]), west))
 
 
 class Cavity(NamedTuple):
@@ -284,8 +283,8 @@ def flux_difference(
     film: Film,
     stencil: Stencil,
     grid: Grid,
-    onward: Array | None = None,
-    nodes: Array | None = None,
+    onward: IntArray | None = None,
+    nodes: IntArray | None = None,
 ) -> csr_matrix:
     """Return the matrix of the wedge by fluxes of oil through cell faces, over the oil at nodes.
 

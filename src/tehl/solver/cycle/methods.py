@@ -38,7 +38,7 @@ MOST_TOUCHING = 30
 """The same where surfaces may touch, also in Newton steps: the nodes that do change for some."""
 MOST_COMBINED = 20
 """The same where cycles are combined between asperities finer than the grid: it takes some."""
-STEADY, SETTLED = 1e-3, 0.01
+STEADY, LARGEST_STEADY = 1e-3, 0.01
 """Mean change of the pressure that ends the cycles on a grid where surfaces may touch and that has
 no comparable coarser grid, and beyond which it is not converging on any."""
 FIRST_ORDER = 64
@@ -186,7 +186,7 @@ class ContactCycles(Cycles):
 
     def __init__(self, visit: Visit) -> None:
         super().__init__(visit)
-        self.largest_change = SETTLED  # a node that parts changes more
+        self.largest_change = LARGEST_STEADY  # a node that parts changes more
         # a grid that does not resolve the heights is smoother than stated: nothing touches there
         self.is_smoother = visit.roughness.is_rough and not visit.is_rough
         visit.fine.share.stays = self.is_smoother

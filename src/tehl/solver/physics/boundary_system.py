@@ -19,7 +19,7 @@ from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import LinearOperator, SuperLU, gcrotmk, splu
 
-from tehl.base.typing import Array, BoolArray
+from tehl.base.typing import Array, BoolArray, IntArray
 from tehl.estimate.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.deformation import Flattening
@@ -287,7 +287,7 @@ def beside(matrix: csr_matrix, nx: int) -> csc_matrix:
     return csc_matrix((entries.data[near].astype(np.float32), places), shape=matrix.shape)
 
 
-def transport(level: Level, neighbours: Neighbours, nodes: Array | None = None) -> Neighbours:
+def transport(level: Level, neighbours: Neighbours, nodes: IntArray | None = None) -> Neighbours:
     """Return ``neighbours`` with the wedge of a level: by fluxes, or that of a time step.
 
     Parameters
@@ -310,10 +310,10 @@ def transport(level: Level, neighbours: Neighbours, nodes: Array | None = None) 
     return found._replace(upstream=flux, open_west=is_open if nodes is None else is_open[nodes])
 
 
-def _last_full(level: Level) -> Array:
+def _last_full(level: Level) -> IntArray:
     """Return the column of each full node, and for a partly filled one of that upstream."""
     partial = level.film.partial > 0
-    found: Array = np.where(partial, -1, np.arange(level.grid.nx))
+    found: IntArray = np.where(partial, -1, np.arange(level.grid.nx))
     return np.maximum.accumulate(found, axis=1)
 
 
