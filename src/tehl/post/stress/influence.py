@@ -37,9 +37,9 @@ Steps = tuple[int, int]
 """Nodes along y and x to the next one that a depth needs."""
 WIDEST_STEP = 4
 """Most nodes to the next, a power of two."""
-DEPTH_OF_STEPS = 5.0
-"""Depth over that distance from which a wave of two such distances has decayed by e^(-5 pi), that
-is 1.5e-7."""
+DEPTH_OF_STEPS = 4.0
+"""Depth over that distance from which a wave of two such distances has decayed by e^(-4 pi), that
+is 3.5e-6."""
 SPARE = 2
 """Such distances between the end of the grid and where its period begins: odd kernels jump there,
 and a jump of few waves oscillates."""
