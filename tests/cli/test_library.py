@@ -1,6 +1,7 @@
 """``tehl oils`` and ``tehl solids``, libraries of the user, and names with other constants."""
 
 import json
+import re
 import sys
 import tomllib
 from pathlib import Path
@@ -140,10 +141,13 @@ def test_a_library_of_the_user_adds_to_that_of_the_package(home, monkeypatch, ca
         (OWN.replace("20 1/GPa", "20 furlongs").replace("squalane", "iso-vg-68"), "furlongs"),
     ],
 )
-def test_a_broken_library_is_named(home, text, fault):
+def test_a_broken_library_is_named(home, monkeypatch, capsys, text, fault):
     (home / "oils.toml").write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=rf"lubricant = .*oils\.toml.*{fault}"):
         problem("iso-vg-68", home)
+    monkeypatch.chdir(home)
+    run(monkeypatch, "oils")
+    assert re.search(rf"the library cannot be .*oils\.toml.*{fault}", capsys.readouterr().err)
 
 
 @pytest.mark.parametrize(

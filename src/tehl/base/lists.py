@@ -6,11 +6,12 @@ import tomllib
 from collections.abc import Sequence
 from contextlib import closing
 from importlib.util import find_spec
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
 from tehl.base.atomic import shortened
-from tehl.base.encoding import encoding_of
+from tehl.base.encoding import decoded
 from tehl.base.errors import InputError
 
 _DECIMAL_COMMA = re.compile(r"^([+-]?\d+),(\d+)(?=[eE\s]|$)")
@@ -84,14 +85,12 @@ def numbered_lines(path: Path, what: str = "list of cases") -> list[tuple[int, l
     try:
         if path.stat().st_size > _LARGEST_LIST:
             raise InputError(f"{shown} is larger than {_LARGEST_LIST // 10**6} MB, so not a {what}")
-        with path.open("rb") as start:
-            encoding = encoding_of(start.read(2))
-        with path.open(encoding=encoding, newline="") as file:
-            reader = csv.reader(file, delimiter=_delimiter(file.readline()))
-            file.seek(0)
-            lines = [(reader.line_num, [cell.strip() for cell in line]) for line in reader]
-            if reader.dialect.delimiter != ",":
-                lines = [(number, [_pointed(cell) for cell in line]) for number, line in lines]
+        file = StringIO(decoded(path.read_bytes()), newline="")
+        reader = csv.reader(file, delimiter=_delimiter(file.readline()))
+        file.seek(0)
+        lines = [(reader.line_num, [cell.strip() for cell in line]) for line in reader]
+        if reader.dialect.delimiter != ",":
+            lines = [(number, [_pointed(cell) for cell in line]) for number, line in lines]
     except FileNotFoundError:
         raise InputError(f"{what} {shown} does not exist") from None
     except (OSError, UnicodeError, csv.Error) as error:

@@ -21,6 +21,7 @@ from pydantic import BaseModel, GetJsonSchemaHandler, ValidationError
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
+from tehl.base.encoding import encoding_of
 from tehl.base.mistakes import describe
 
 _OWN_KEYS = ("aliases", "family", "evidence")
@@ -108,7 +109,7 @@ class Library:
         entries = self.entries(folder)
         names = {_plain(word): one for one in entries.values() for word in one.words}
         if (plain := _plain(name)) in names:
-            return self._checked(names[plain])
+            return self.checked(names[plain])
         close = difflib.get_close_matches(plain, names, n=1)
         guess = f"did you mean {names[close[0]].table['name']}? " if close else ""
         raise ValueError(
@@ -116,7 +117,7 @@ class Library:
             f"{self.needs}"
         )
 
-    def _checked(self, one: Named) -> Named:
+    def checked(self, one: Named) -> Named:
         """Return an entry; raise ValueError if that of the user has a mistake."""
         if one.path != self.path:
             try:
@@ -195,7 +196,8 @@ def _read(path: Path) -> dict[str, Named]:
 def _entries(path: Path) -> dict[str, Named]:
     """Return the entries of a file by name; raise ValueError if it is not a library."""
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
+        text = path.read_bytes()
+        content = tomllib.loads(text.decode(encoding_of(text[:2])))
     except (OSError, ValueError) as error:
         raise ValueError(f"cannot be looked up: {path} is not a TOML file ({error})") from None
     sources = content.pop(_SOURCES, {})

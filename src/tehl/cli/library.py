@@ -64,8 +64,9 @@ def _show(
         if table or not kept or text in names:
             _show_one(library, library.find(text or "", here), table, as_json)
             return
+        kept = [library.checked(one) for one in kept]
     except ValueError as error:
-        raise InputError(f'"{text or ""}" {error}') from None
+        raise InputError(f'"{text}" {error}' if text else f"the library {error}") from None
     echo(json.dumps([_plain(one) for one in kept])) if as_json else show(_list(kept, *columns))
 
 
@@ -98,8 +99,9 @@ def _list(kept: "list[Named]", row: Any, heading: tuple[str, ...]) -> str:
 
 def _text(one: "Named") -> str:
     """Return the constants of an entry with evidence, and its sources."""
-    names = ", ".join(one.aliases)
-    lines = [f"{one.table['name']}: {one.family}{f', also {names}' if names else ''}"]
+    also = [f"also {', '.join(one.aliases)}"] if one.aliases else []
+    words = ", ".join([one.family] * bool(one.family) + also)
+    lines = [f"{one.table['name']}{': ' if words else ''}{words}"]
     sources = list(dict.fromkeys(source for _, _, source in one.evidence.values()))
     numbers = list(_numbers(one.table))
     width = max(len(path) for path, _ in numbers)
