@@ -39,28 +39,45 @@ FEATURES = {
     "rough": 0.12,
 }
 """What is added, and how often it is drawn."""
+POINT_SHAPES = {"circle": 0.4, "ellipse": 0.4, "angle": 0.2}
+ALL_FEATURES = {
+    "thermal": 0.35,
+    "thinning": 0.35,
+    "transient": 0.2,
+    "supply": 0.25,
+    "cavitation": 0.25,
+    "asperities": 0.3,
+    "contact_film": 0.4,
+    "rough": 0.4,
+}
+"""The same of point contacts with all tables at once: 2.5 of them in the mean."""
 LAMBDAS, FILMS = (0.3, 3.0), (0.1, 0.8)
 """Expected film over the height of asperities, and boundary film over the expected film."""
 TRANSITS = (2.0, 6.0)
 """Durations of transient runs over a_x / u_m."""
 
 
-def contact(seed: int, number: int) -> tuple[str, set[str], ContactProblem]:
+def contact(
+    seed: int, number: int, *, tables_at_once: bool = False
+) -> tuple[str, set[str], ContactProblem]:
     """Return shape, features and problem of a contact; what no case may state is drawn again.
 
     Parameters
     ----------
     seed, number : int
         Of the random numbers.
+    tables_at_once : bool
+        Whether to draw point contacts with many features.
     """
     rng = np.random.default_rng([seed, number])
-    kind = str(rng.choice(list(SHAPES), p=list(SHAPES.values())))
+    shapes, parts = (POINT_SHAPES, ALL_FEATURES) if tables_at_once else (SHAPES, FEATURES)
+    kind = str(rng.choice(list(shapes), p=list(shapes.values())))
     while True:
         try:
             tables = _plain(rng, kind)
         except ValueError:
             continue
-        features = {name for name, part in FEATURES.items() if rng.random() < part}
+        features = {name for name, part in parts.items() if rng.random() < part}
         if "thinning" not in features:
             tables["lubricant"]["shear"] = {"law": "newtonian"}
         elif tables["lubricant"]["shear"]["law"] == "newtonian":

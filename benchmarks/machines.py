@@ -5,7 +5,8 @@ gear teeth and cams, traction drives and test rigs, some heated, with asperities
 and solves each from the defaults within ``--limit`` seconds. ``--judge N`` solves N of those that
 converge again on a grid twice as fine, and a domain twice as large, and compares with their bars.
 ``--any`` draws contacts of any direction and shape instead, and asks for an error of 2 %; a
-transient run has to end.
+transient run has to end. ``--tables`` draws point contacts with all tables of a case at once.
+``--points N`` solves on a grid of N x N nodes instead of to an error.
 """
 
 import argparse
@@ -14,6 +15,7 @@ import math
 import resource
 import sys
 import time
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -255,7 +257,7 @@ def _failure(one: dict[str, Any]) -> str:
     return (
         f"contact {one['number']} ({one['kind']}, {', '.join(one['features'])}; "
         f"M = {one['M']:.0f}, L = {one['L']:.3g}, a_y/a_x = {one['ellipticity']:.3g}): "
-        f"{one['cause']}, reached {best}"
+        f"{one['cause']}, reached {best}; {one.get('hint')}"
     )
 
 
@@ -282,10 +284,17 @@ def main() -> None:
     parser.add_argument("--judge", type=int, default=0, help="contacts to judge")
     parser.add_argument("--json", type=Path, help="file for the rows")
     parser.add_argument("--any", action="store_true", help="of any direction and shape")
+    parser.add_argument("--tables", action="store_true", help="with all tables at once")
+    parser.add_argument("--points", type=int, help="nodes along x and y")
     parser.add_argument("--first", type=int, default=0, help="number of the first contact")
     asked = parser.parse_args()
     draw, error = (any_contacts.contact, ANY_ERROR) if asked.any else (contact, None)
-    options, rows = Options(error=error, max_time=asked.limit), []
+    if asked.tables:
+        draw, error = partial(any_contacts.contact, tables_at_once=True), ANY_ERROR
+    options = Options(error=error, max_time=asked.limit)
+    if asked.points is not None:
+        options = Options(points=asked.points, max_time=asked.limit)
+    rows = []
     for number in range(asked.first, asked.first + asked.contacts):
         judge = number - asked.first < asked.judge
         rows.append(row(draw(asked.seed, number), number, options, judge=judge))

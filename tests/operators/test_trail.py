@@ -18,7 +18,7 @@ def test_a_lag_finds_parabolas_exactly(steps, first):
         assert weights @ ago**power == pytest.approx(steps**power, abs=1e-12)
 
 
-@pytest.mark.parametrize("lag", [0.6, 1.0, 1.5])
+@pytest.mark.parametrize("lag", [0.6, 1.0, 1.5, 2.0])
 def test_a_steady_flux_leaves_the_steady_rise(lag):
     x = np.linspace(0.0, 1.0, NODES)
     flux = np.repeat(np.sin(np.pi * x)[:, None] ** 2, ROWS, axis=1)
@@ -30,7 +30,7 @@ def test_a_steady_flux_leaves_the_steady_rise(lag):
     np.testing.assert_allclose(trail.past, first, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("lag", [0.6, 1.0, 1.5])
+@pytest.mark.parametrize("lag", [0.6, 1.0, 1.5, 2.0])
 def test_a_flux_that_grows_in_time_reaches_a_point_with_the_delay_of_the_way(lag):
     """Of q = x^2 (1 + g t): 16/15 x^(5/2) (1 + g t) - 16/105 g x^(7/2) / u."""
     spacing, growth = 1.0 / (NODES - 1), 0.8

@@ -126,18 +126,26 @@ def test_a_nearly_dry_contact_is_that_of_hertz_and_a_moving_source():
     assert walls == pytest.approx(rise, rel=0.03)
 
 
-def test_friction_in_time_is_that_of_film_and_solids():
+@pytest.mark.parametrize("load", [1.0, 0.8])
+def test_friction_in_time_is_that_of_film_and_solids(load: float):
+    """Under a load that differs from that of the contact both are parts of the present one."""
     tables = {"roughness": WAVE | {"amplitude": "0.3 um", "phase": "180 deg"}}
     problem = changed(
         contact("heat", "boundary"),
         surface_1=tables,
         contact={"slide_roll_ratio": -0.9},
         contact_film={"thickness": 1.2e-7},
-        transient={"duration": 2e-4, "start": "standing", "frames": 0},
+        transient={
+            "duration": 2e-4,
+            "start": "standing",
+            "frames": 0,
+            "load": [[0.0, load], [2e-4, load]],
+        },
     )
     run = solve_transient(problem, Options(points=65))
     history, shared = run.history, run.start.touching
     assert run.status.converged
+    assert run.start.load == pytest.approx(load * problem.load)
     assert history.asperity_load == pytest.approx(shared.share, rel=1e-3)
     assert history.solid_friction[0] == pytest.approx(shared.friction_boundary, rel=1e-9)
     assert np.ptp(history.temperature_rise) < 0.01 * history.temperature_rise[0]

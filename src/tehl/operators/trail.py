@@ -18,9 +18,6 @@ from tehl.kernels.energy import trail
 from tehl.operators.line_source import history
 from tehl.operators.reynolds import carried
 
-LONGEST_LAG = 2.0
-"""Most time steps in which a surface may move by a mesh width: earlier levels are not stored."""
-
 
 class Trail:
     """History of one surface on one grid.
@@ -32,7 +29,8 @@ class Trail:
     spacing : float
         Mesh width [a_x].
     lag : float
-        Time steps in which the surface moves by a mesh width, at most `LONGEST_LAG`.
+        Time steps in which the surface moves by a mesh width, at most two: earlier levels are not
+        stored (`tehl.contact.problem.check_transient` refuses slower surfaces).
     """
 
     def __init__(self, flux: Array, spacing: float, lag: float) -> None:
