@@ -44,6 +44,16 @@ def test_contacts_of_any_shape_and_motion_are_valid_and_the_same_each_time():
     assert seen == {*any_contacts.SHAPES, *any_contacts.FEATURES, "across", "spin"}
 
 
+def test_point_contacts_with_all_tables_at_once_have_each_beside_each_other():
+    drawn = [any_contacts.contact(1, number, tables_at_once=True)[::2] for number in range(12)]
+    again = [any_contacts.contact(1, number, tables_at_once=True)[::2] for number in range(12)]
+    assert drawn == again
+    assert {kind for kind, _ in drawn} <= set(any_contacts.POINT_SHAPES)
+    both = [one for _, one in drawn if one.contact_film is not None and one.thermal is not None]
+    assert both
+    assert any(one.conserves_oil for _, one in drawn)
+
+
 def test_a_starved_cam_whose_flux_errs_at_the_spike_reaches_its_error():
     _, features, problem = contact(1, 89)
     assert features == {"supply"}

@@ -1,0 +1,65 @@
+"""Examples of the pages for developers do what they say on the code of today."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
+from tehl.estimate import film_formulas
+from tehl.estimate.scaling import ScaledProblem
+from tehl.solver.cycle import level
+from tehl.solver.physics import share
+from tests.reference import moes_contact
+
+PAGES = Path(__file__).parents[2] / "docs" / "dev"
+
+
+def added(page: str, file: str) -> str:
+    """Return the lines that the examples of a page add to a file, up to the next hunk."""
+    text = (PAGES / page).read_text(encoding="utf-8")
+    hunk = re.search(rf"\+\+\+ b/{re.escape(file)}\n((?:[+ ].*\n|\+\n| \n)+)", text)
+    assert hunk is not None, f"{page} changes {file} no more"
+    return "\n".join(line[1:] for line in hunk[1].splitlines() if line.startswith("+"))
+
+
+def test_the_share_of_the_page_carries_load_beside_the_oil(monkeypatch):
+    names = dict(vars(share))
+    exec(added("adding-a-share.md", "src/tehl/solver/physics/share.py"), names)
+    problem, options = moes_contact(50.0, 5.0), Options(points=65)
+    alone, found = solve(problem, options), []
+    for stiffness in (0.0, 0.5):
+        bed = names["Springs"]
+        monkeypatch.setattr(
+            level, "share_of", lambda equations, k=stiffness, bed=bed: bed(equations, k, 0.3)
+        )
+        found.append(solve(problem, options))
+    without, carried = found
+    assert without.film.central == pytest.approx(alone.film.central, rel=1e-9)
+    assert carried.scaled.pressure.max() < 0.98 * alone.scaled.pressure.max()
+    assert carried.status.converged
+
+
+def test_the_formula_of_the_page_has_the_value_that_it_states():
+    names = dict(vars(film_formulas))
+    lines = added("adding-a-formula.md", "src/tehl/estimate/film_formulas.py")
+    exec(lines[lines.index("def ") :], names)
+    groups = ScaledProblem.of(moes_contact(100.0, 0.1)).groups
+    film = names["hamrock_dowson_soft"](replace(groups, U=3.8e-8, W=1.9e-4))
+    assert film.central == pytest.approx(3.918e-4, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("page", "file"),
+    [
+        ("adding-an-entrainment.md", "src/tehl/operators/reynolds.py"),
+        ("adding-an-entrainment.md", "src/tehl/solver/cycle/level.py"),
+        ("adding-a-share.md", "src/tehl/contact/shape.py"),
+    ],
+)
+def test_what_a_page_shows_of_the_code_stands_there(page: str, file: str):
+    stated = [line.strip() for line in added(page, file).splitlines() if '"""' not in line]
+    there = (PAGES.parents[1] / file).read_text(encoding="utf-8")
+    assert [line for line in stated if line not in there] == []
