@@ -153,7 +153,7 @@ def stress_picture(found: Deep, maps: Maps, limits: Limits, size: tuple[float, f
         at = frame.x(edge)
         parts += f'<path d="M{at:.1f} {frame.y.end}v14" class="hertz"/>'
     parts += text(frame.x.start, frame.y.end - 12, found.words, "small", "start")
-    parts += frame.svg(_X_LABEL, "z into the body [µm]")
+    parts += frame.svg(_X_LABEL, "height from the surface [µm]")
     return _coloured(found.shear, axes, frame, look, parts, "shear stress on y = 0")
 
 

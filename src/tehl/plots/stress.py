@@ -106,7 +106,7 @@ def stress_planes(result: Solution, *, title: bool | None = True) -> Figure:
     row = int(np.argmax(found.body == body.body))
     deep = float(found.floor_depth[row]) * MICRO
     slender = shape(result) > SLENDER_FLOOR
-    size = (9.6, 5.6) if slender else (9.6, 4.6)
+    size = (9.6, 5.6) if slender else (9.6, 4.1)
     picture = figure(result, size, f"below surface {body.body}", title=title)
     picture.set_layout_engine("compressed")
     section, floor = picture.subplots(1, 2)

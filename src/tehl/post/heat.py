@@ -11,6 +11,9 @@ from tehl.post.traction import traction, under_pressure
 from tehl.result.fields import FilmHeat
 from tehl.result.solution import Solution
 
+PLACE_DIGITS = 12
+"""Decimals of a place in half-widths: the middle of a grid is zero only to rounding."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Temperature:
@@ -58,8 +61,8 @@ def temperature(result: Solution) -> Temperature | None:
         inlet=inlet,
         film_rise_max=float(field[layer, row, column]) - inlet,
         film_rise_max_at=(
-            float(scaled.x[column]),
-            float(scaled.y[::-1][row]),
+            round(float(scaled.x[column]), PLACE_DIGITS) + 0.0,
+            round(float(scaled.y[::-1][row]), PLACE_DIGITS) + 0.0,  # no -0
             float(heat.zeta[layer]),
         ),
         mid_film_rise_central=scaled.at_origin(mid_film) - inlet,
