@@ -1,5 +1,6 @@
 """The strategies of the ladder: what they combine, and what it saves."""
 
+from collections import Counter
 from dataclasses import replace
 
 import pytest
@@ -10,8 +11,12 @@ from tehl.contact.problem import ContactProblem
 from tehl.contact.supply import Supply
 from tehl.estimate.scaling import ScaledProblem
 from tehl.solver import steady
-from tehl.solver.cycle.ladder import STARVED_DAMPING, UNCOMBINED, ladder
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.ladder import STARVED_DAMPING, UNCOMBINED, Strategy, ladder
+from tehl.solver.cycle.relaxation import BROAD, FAST
+from tehl.solver.judging.convergence import DivergedError
 from tehl.solver.monitor import SILENT
+from tests.reference import moes_contact
 
 OPTIONS = Options(extrapolate=True)
 NODES = 193
@@ -85,6 +90,51 @@ def test_the_steep_front_of_a_thinning_oil_converges_without_combined_cycles(
     ring, options = case_from_tables(tables)[0], OPTIONS.on_points(97, 49)
     found = steady.try_strategies(ring, options, monitor=SILENT, rough=False)[1]
     assert found.status.converged
+
+
+def test_steep_fronts_are_tried_without_combined_cycles_first(
+    hybrid_bearing: ContactProblem,
+) -> None:
+    viscous = hybrid_bearing.model_dump(exclude_none=True)
+    viscous["lubricant"]["viscosity"]["eta_0"] *= 40.0
+    for problem, place in ((hybrid_bearing, -1), (ContactProblem.model_validate(viscous), 1)):
+        rungs = ladder(ScaledProblem.of(problem), OPTIONS, rough=False)
+        third = [one for one in rungs if one.wedge_order is None]
+        assert third[place] is UNCOMBINED
+
+
+@pytest.mark.parametrize("thins", [False, True])
+@pytest.mark.parametrize("early", [False, True])
+def test_a_strategy_goes_on_from_the_grids_that_another_one_solved(
+    monkeypatch: pytest.MonkeyPatch, *, thins: bool, early: bool
+) -> None:
+    """Not where it heats a coarser grid than the other, which then has no start for it."""
+    tables = moes_contact(50.0, 8.0, radius_ratio=4.0).model_dump(exclude_none=True)
+    tables["contact"]["slide_roll_ratio"] = 0.02
+    if thins:
+        tables["lubricant"]["shear"] = {"law": "eyring", "stress": 5e6}
+    case, options = ContactProblem.model_validate(tables), OPTIONS.on_points(129, 65)
+    first = Strategy(relaxation=BROAD if thins else FAST)
+    rungs = first, replace(first, early=early)
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: rungs)
+    usual = steady.try_strategies(case, options, monitor=SILENT, rough=False)[1]
+    runs: list[FilmSolver] = []
+    whole = FilmSolver._solve_finest
+
+    def fails_once(run: FilmSolver) -> None:
+        runs.append(run)
+        if len(runs) == 1:
+            raise DivergedError
+        whole(run)
+
+    monkeypatch.setattr(FilmSolver, "_solve_finest", fails_once)
+    found = steady.try_strategies(case, options, monitor=SILENT, rough=False)[1]
+    once, both = (Counter(one.points for one in run.history) for run in (usual, found))
+    again = {points for points in both if both[points] > once[points]} - {(129, 65)}
+    assert again == ({(65, 33)} if thins and early else set())
+    assert found.film_scaled.central == pytest.approx(usual.film_scaled.central, rel=2e-3)
+    assert found.film_scaled.minimum == pytest.approx(usual.film_scaled.minimum, rel=2e-3)
+    assert found.errors.central == pytest.approx(usual.errors.central, rel=0.2)
 
 
 def test_scarce_oil_is_damped_more(hybrid_bearing: ContactProblem) -> None:

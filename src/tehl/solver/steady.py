@@ -36,7 +36,7 @@ from tehl.result.solution import (
 )
 from tehl.solver.cost import Clock
 from tehl.solver.cycle.continuation import TouchingError
-from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.film_solver import FilmSolver, Solved
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy, ladder
 from tehl.solver.cycle.level import Level
@@ -106,16 +106,17 @@ class Climb:
             Those with another order of the wedge have as many nodes along y as along x.
         """
         best: Attempt | None = None
+        solved: tuple[Solved, ...] = ()
         for number, strategy in enumerate(rungs):
             if number:
                 self.monitor.message(f"falling back to {strategy.description}")
             if strategy.wedge_order is not None and strategy.wedge_order != plan.order:
                 plan = plan.model_copy(update={"wedge_order": strategy.wedge_order})
                 nodes = plan.shape[1]
-                plan = self.goal.fitting(plan.on_points(nodes, nodes))
+                plan, solved = self.goal.fitting(plan.on_points(nodes, nodes)), ()
             # Newton's method is expensive: the cycles before it are tried to the end
             force = all(one.newton for one in rungs[number + 1 :])
-            attempt = self._attempt(plan, strategy, force=force)
+            attempt = self._attempt(plan, strategy, solved, force=force)
             best = _better(best, attempt)
             while attempt.run.wants_lines and not self.goal.is_over:
                 nx, ny = attempt.run.finest.grid.points
@@ -124,17 +125,25 @@ class Climb:
                 del attempt  # frees its grids, unless it is the best one
                 attempt = self._attempt(plan, strategy, force=force)
                 best = _better(best, attempt)
+            solved = attempt.run.solved
             if attempt.is_final or self.goal.is_over:
                 break
             del attempt
         assert best is not None
         return best
 
-    def _attempt(self, plan: Options, strategy: Strategy, *, force: bool) -> Attempt:
-        """Run a strategy on the grid of a plan, and judge its result."""
+    def _attempt(
+        self,
+        plan: Options,
+        strategy: Strategy,
+        solved: tuple[Solved, ...] = (),
+        *,
+        force: bool,
+    ) -> Attempt:
+        """Run a strategy on the grid of a plan, from grids that are solved; judge its result."""
         grid = finest_grid(self.scaled, plan)
         hierarchy = Hierarchy.on(grid, self.scaled, plan, strategy.first_relaxation)
-        return _run(self.solver(hierarchy, strategy), force=force)
+        return _run(self.solver(hierarchy, strategy), force=force, solved=solved)
 
 
 def solve(
@@ -354,11 +363,11 @@ def _better(best: Attempt | None, attempt: Attempt) -> Attempt:
     return replace(kept, reached_before=min(known, key=lambda film: film[1], default=None))
 
 
-def _run(run: FilmSolver, *, force: bool) -> Attempt:
+def _run(run: FilmSolver, *, force: bool, solved: tuple[Solved, ...]) -> Attempt:
     """Run a strategy and judge its result, finite or not."""
     with np.errstate(all="ignore"):  # divergence ends in a status, not in warnings
         try:
-            reached = run.solve(force=force)
+            reached = run.solve(force=force, solved=solved)
         except TouchingError as error:
             return Attempt(run=run, status=touching(run, error.part), reached=True)
         except ArithmeticError:

@@ -5,8 +5,13 @@ coarser one has no acceptable solution, and whether a finer one follows.
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
+from tehl.kernels.properties import Factors
+from tehl.operators.energy import FilmState
 from tehl.operators.heights import Heights, heights_of
 from tehl.result.solution import Solution
 from tehl.solver.cycle.continuation import RAISED_RESIDUAL, TouchingError
@@ -16,7 +21,7 @@ from tehl.solver.cycle.iteration import GridIteration
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.methods import MOST_CYCLES, solve_coarsest
-from tehl.solver.cycle.start import from_coarser, from_dry_pressure, from_guess
+from tehl.solver.cycle.start import from_coarser, from_dry_pressure, from_guess, pose_problem
 from tehl.solver.judging.convergence import (
     LARGEST_CYCLE_CHANGE,
     DivergedError,
@@ -32,6 +37,20 @@ TOO_COARSE = 0.5
 """Error bar of the film beyond which the grid may be why the cycles do not converge."""
 GRIDS_WITHOUT_BARS = 2
 """Most grids that give no error bars: the coarsest one does not resolve the contact."""
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """A grid that a strategy solved before it ended on a finer one: another one may go on there.
+
+    ``traces`` are those of the grid and of the coarser ones, ``state`` is what `Level.set_state`
+    takes, ``heat`` what `Coupling.take` takes.
+    """
+
+    grid: Grid
+    traces: tuple[GridTrace, ...]
+    state: tuple[Array, float, Array]
+    heat: tuple[FilmState, Factors] | None
 
 
 class FilmSolver(GridIteration):
@@ -64,6 +83,7 @@ class FilmSolver(GridIteration):
         goal = goal or Goal(hierarchy.scaled, hierarchy.options)
         super().__init__(hierarchy, strategy, heights, goal, monitor)
         self.guess = guess
+        self.solved: tuple[Solved, ...] = ()  # coarser grids, for another strategy
         self.accepted = True  # the next coarser grid has an acceptable solution
         self.wants_lines = False  # more nodes along y alone would reach the goal
 
@@ -72,12 +92,13 @@ class FilmSolver(GridIteration):
         """Dimensionless groups of the contact."""
         return self.hierarchy.scaled.groups
 
-    def solve(self, *, force: bool) -> bool:
+    def solve(self, *, force: bool, solved: tuple[Solved, ...] = ()) -> bool:
         """Run full multigrid; return whether the finest grid converged.
 
         If the goal is open, finer grids follow until the error estimate of the film is below it.
         ``force`` continues on the finest grid even if the next coarser one has no acceptable
-        solution, and on one finer grid if the finest one diverges.
+        solution, and on one finer grid if the finest one diverges. The solve goes on from the
+        grids that another strategy ``solved``.
 
         Raises
         ------
@@ -100,8 +121,44 @@ class FilmSolver(GridIteration):
                     if self._needs_finer_grid(force=force):
                         self._refine()
 
-        full_multigrid(self.levels, self._solve_coarsest, self._start, improve)
+        self.solved = solved
+        full_multigrid(self.levels, self._solve_coarsest, self._start, improve, self._go_on())
         return self._has_converged()
+
+    def _go_on(self) -> int:
+        """Take the finest of the grids that another strategy solved; return how many are solved.
+
+        It is no start for a third strategy, as two have ended on the next grid. A strategy that
+        heats coarser grids, or the sliding speed in steps, begins where they are isothermal.
+        """
+        strategy, grids = self.strategy, [level.grid for level in self.levels]
+        while self.solved:
+            *before, known = self.solved
+            self.solved = tuple(before)
+            number = len(known.traces)
+            early = self.coupling.heats_from(known.grid, early=strategy.early)
+            fits = number <= len(grids) and grids[number - 1] == known.grid
+            if not fits or (strategy.slide_in_steps if known.heat else early):
+                continue
+            fine, levels = self.levels[number - 1], self.levels[:number]
+            self.traces += known.traces
+            pose_problem(fine)
+            fine.set_state(*known.state)
+            self.coupling.take(levels, known.heat)
+            if known.heat:
+                self._relax_heated(levels)
+            fine.update()
+            if number == len(grids):
+                self._refine()
+            return number
+        return 0
+
+    def _keep(self, levels: Sequence[Level]) -> None:
+        """Note that the last of ``levels`` is solved, for other strategies."""
+        if not self.roughness.is_rough:
+            traces, heat = tuple(replace(one) for one in self.traces), self.coupling.kept(levels)
+            found = Solved(levels[-1].grid, traces, levels[-1].state(), heat)
+            self.solved = (*self.solved, found)
 
     def _improve_finest(self, *, force: bool) -> None:
         """Solve on the finest grid, and append a finer one if the goal is not reached."""
@@ -118,6 +175,8 @@ class FilmSolver(GridIteration):
             self._refine()
         else:
             if self._needs_finer_grid(force=force):
+                if self._has_converged():
+                    self._keep(self.levels)
                 self._refine()
 
     def _has_converged(self) -> bool:
@@ -226,7 +285,9 @@ class FilmSolver(GridIteration):
             accepted, self.traces[-1].diverged = False, True
         else:
             accepted = self._is_acceptable(self.traces[-1])
-        if not accepted:
+        if accepted:
+            self._keep(levels)
+        else:
             self._discard(levels)
         return accepted
 

@@ -14,6 +14,7 @@ def full_multigrid(
     solve_coarsest: Callable[[], None],
     start: Callable[[AnyLevel, AnyLevel], None],
     improve: Callable[[Sequence[AnyLevel]], None],
+    solved: int = 0,
 ) -> None:
     """Solve on the coarsest level; then level by level interpolate and improve by cycles.
 
@@ -30,9 +31,12 @@ def full_multigrid(
         Called as ``start(coarse, fine)``: first approximation on the next finer level.
     improve : callable
         Called with the levels up to the next finer one: multigrid cycles.
+    solved : int
+        Levels that are solved already.
     """
-    solve_coarsest()
-    finest = 1
+    if not solved:
+        solve_coarsest()
+    finest = max(solved, 1)
     while finest < len(levels):
         start(levels[finest - 1], levels[finest])
         improve(levels[: finest + 1])

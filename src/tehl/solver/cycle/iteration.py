@@ -204,9 +204,13 @@ class GridIteration:
         finer = len(self.levels) - len(levels)
         full = self.goal.is_open or finer < COMPARED_GRIDS
         if self.coupling.begin(levels, finest=not finer, full=full, early=self.strategy.early):
-            for level in (*levels, *self.hierarchy.between.values()):
-                level.set_relaxation(self.strategy.relaxation)
+            self._relax_heated(levels)
         return cycles
+
+    def _relax_heated(self, levels: Sequence[Level]) -> None:
+        """Relax ``levels`` as heated or thinned films need it."""
+        for level in (*levels, *self.hierarchy.between.values()):
+            level.set_relaxation(self.strategy.relaxation)
 
     def _coarser_trace(self) -> GridTrace | None:
         """Return the trace of the next coarser grid; None if its film is not comparable."""

@@ -144,6 +144,8 @@ COMBINED_CYCLES = 3
 """Earlier cycles combined where heat and thinning are damped: 8 replace 13 on the finest grid of
 bearings with M = 8,000. Between asperities it takes more cycles; with a wedge of second order, the
 last resort, steep spikes (L = 29) diverge."""
+STEEP_SPEED = 13.0
+"""Moes speed L above which `UNCOMBINED` comes before the combined cycles."""
 STARVED_DAMPING = 0.3
 """Damping of the second strategy where the oil is scarce: with 0.5, which saves a fifth of the time
 of 30 flooded contacts, the edge of the film of an inner ring (M = 2,500) does not rest."""
@@ -188,12 +190,12 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
     steep = (UNCOMBINED,) if problem.is_coupled else ()
     if problem.asperities is not None:
         return (*rungs[: THIRD_ORDER_STRATEGIES + 1], *steep, *second)
-    third = rungs[:THIRD_ORDER_STRATEGIES]
-    return (
-        *(replace(one, memory=COMBINED_CYCLES) if one.damping < 1.0 else one for one in third),
-        *steep,
-        *second,
+    third = tuple(
+        replace(one, memory=COMBINED_CYCLES) if one.damping < 1.0 else one
+        for one in rungs[:THIRD_ORDER_STRATEGIES]
     )
+    first = 1 if scaled.groups.L > STEEP_SPEED else THIRD_ORDER_STRATEGIES
+    return (*third[:first], *steep, *third[first:], *second)
 
 
 def _is_heavy(scaled: ScaledProblem) -> bool:

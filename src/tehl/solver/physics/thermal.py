@@ -13,6 +13,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.contact.moment import Moment
 from tehl.contact.options import Options
+from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels import properties
 from tehl.operators.energy import FilmState
@@ -111,8 +112,7 @@ class Coupling:
         if self.film is None:
             return False
         fine, coarser = levels[-1], self.state
-        nodes = (fine.grid.nx,) if early else fine.grid.points
-        large = min(n for n in nodes if n > 1) > COUPLED_FROM
+        large = self.heats_from(fine.grid, early=early)
         resolved = float(fine.film.h.min()) > RESOLVED_FILM_OVER_FLOOR * fine.equations.floor
         if not (finest or coarser is not None or (large and resolved)):
             return False
@@ -179,6 +179,40 @@ class Coupling:
         if self.state is None:
             return 0.0
         return float(self.state.temperature.max()) - self.scaled.scales.temperature
+
+    def heats_from(self, grid: Grid, *, early: bool) -> bool:
+        """Return whether a coarser grid has the nodes from which a film is heated.
+
+        Parameters
+        ----------
+        grid : Grid
+            Nodes along x and y.
+        early : bool
+            Whether a grid with enough nodes along x may be the first.
+        """
+        nodes = (grid.nx,) if early else grid.points
+        return self.film is not None and min(n for n in nodes if n > 1) > COUPLED_FROM
+
+    def kept(self, levels: Sequence[Level]) -> tuple[FilmState, properties.Factors] | None:
+        """Return temperatures and factors of the last of ``levels``; None if it is isothermal."""
+        factors = levels[-1].factors
+        return None if self.state is None or factors is None else (self.state, factors)
+
+    def take(
+        self, levels: Sequence[Level], known: tuple[FilmState, properties.Factors] | None
+    ) -> None:
+        """Take what `kept` returned on the same levels of another solve.
+
+        Parameters
+        ----------
+        levels : sequence of Level
+            Coarsest first.
+        known : (FilmState, Factors) or None
+            None leaves them isothermal.
+        """
+        if known is not None:
+            self.state = known[0]
+            self._set_factors(levels, known[1])
 
     def reset(self, levels: Sequence[Level]) -> None:
         """Make ``levels`` isothermal again: their film is not a start for the next grid."""
