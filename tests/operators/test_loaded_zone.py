@@ -5,7 +5,8 @@ import pytest
 
 from tehl.contact.options import Domain
 from tehl.estimate.grid import Grid
-from tehl.operators.loaded_zone import RADIUS, is_inside, wet_part, zone_of, zone_part
+from tehl.operators.load import Load
+from tehl.operators.loaded_zone import RADIUS, beside, is_inside, wet_part, zone_of, zone_part
 
 
 def disc(points: int, edge: float = 3.1, skew: float = 0.0) -> float:
@@ -29,6 +30,17 @@ def test_half_a_symmetric_domain_has_the_same_parts():
     difference = np.abs(grid.unfold(zone_of(grid)) - whole)
     assert difference[:32].max() < 1e-12
     assert difference[32].max() < 0.01  # the strips of a half cell are half as wide
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+@pytest.mark.parametrize("skew", [0.0, -0.8])
+def test_what_a_narrow_grid_has_of_the_zone_and_what_lies_beside_it_make_all(mirror, skew):
+    grid = Grid(nx=129, ny=65, domain=Domain(x=(-4.5, 2.0), y=(-1.4, 1.4)), mirror=mirror)
+    inside = Load(grid).integral(zone_of(grid, skew))
+    exact = np.pi * RADIUS**2 * np.sqrt(1.0 - skew**2)
+    assert inside + beside(grid, np.ones(grid.shape), skew) == pytest.approx(exact, rel=5e-3)
+    wide = Grid(nx=129, ny=65, domain=Domain(x=(-4.5, 2.0), y=(-2.0, 2.0)), mirror=mirror)
+    assert beside(wide, np.ones(wide.shape), skew) == 0.0
 
 
 def test_nodes_within_the_zone_count_fully_and_those_outside_not():

@@ -151,6 +151,7 @@ def test_the_heat_of_a_surface_has_half_the_error_of_the_heat_that_it_is_part_of
     bars = further_errors(traces, 1.0, 0.0)
     assert bars["heat_shear"] == pytest.approx(UNEVEN * 0.01 / 1.05)
     assert bars["heat_surface_1"] == pytest.approx(0.5 * UNEVEN * 0.01 / 0.4991)
+    assert further_errors(traces, 1.0, 0.0, film=0.03)["heat_shear"] == 0.03
 
 
 @pytest.mark.parametrize(

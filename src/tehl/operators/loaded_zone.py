@@ -60,6 +60,32 @@ def zone_part(x: Array, y: Array, radius: float = RADIUS, skew: float = 0.0) -> 
     return np.asarray(part)
 
 
+def beside(grid: Grid, field: Array, skew: float = 0.0) -> float:
+    """Return the integral of a field over the zone beyond the side edges of a grid [-].
+
+    The field is that of the rows next to the edges: more than a stress there, as the gap grows.
+
+    Parameters
+    ----------
+    grid, skew : Grid, float
+        As of `zone_part`.
+    field : array of ``grid.shape``
+        Values at the nodes.
+    """
+    y, dy, found = grid.y, grid.dy, 0.0
+    rows = max(math.ceil((RADIUS - float(y[-1])) / dy), 0)
+    if rows == 0 or ends_at_roller(y):
+        return found
+    further = dy * np.arange(rows + 1.0)
+    weights = np.full(rows + 1, dy * grid.dx)
+    weights[[0, -1]] *= 0.5
+    sides = [(float(y[-1]) + further, field[-2])]
+    sides.append(sides[0] if grid.mirror else (float(y[0]) - further[::-1], field[1]))
+    for across, row in sides:
+        found += float(weights @ zone_part(grid.x, across, skew=skew) @ row)
+    return found
+
+
 def contact_mean(x: Array, y: Array, field: Array, skew: float = 0.0) -> float:
     """Return the mean of a field over the Hertz contact, of second order in the mesh width.
 

@@ -143,7 +143,8 @@ def error_estimate(  # noqa: PLR0913 (one estimate)
         estimate = replace(estimate, extrapolated=True, **combined)
     if not traces[-1].measured:  # its cycles have not ended
         return estimate
-    found = further_errors(traces, ROUGH_PART if rough else 1.0, domain)
+    part = ROUGH_PART if rough else 1.0
+    found = further_errors(traces, part, domain, estimate.central)
     resolved = _limit_bars(found, traces, estimate.central, newtonian=newtonian)
     return replace(estimate, bars=found, spike_resolved=resolved)
 
@@ -173,8 +174,6 @@ def _limit_bars(
     resolved, reach = _spike_reach(traces, found)
     if not resolved:
         found["pressure_max"] = max(found["pressure_max"], reach)
-    if "rolling" in found:
-        found["rolling"] += known["rolling_tail"]
     stated = [name for name in STRESSES if name in known]
     friction = math.hypot(*(known.get(name, 0.0) for name in STRESSES[:2]))
     for name in stated:
@@ -245,7 +244,9 @@ def _iteration_error(trace: GridTrace, name: str) -> float:
     return numbers.iteration_error() if trace.reports else 0.0
 
 
-def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> dict[str, float]:
+def further_errors(
+    traces: list[GridTrace], otherwise: float, domain: float, film: float = 0.0
+) -> dict[str, float]:
     """Return the relative error bars of the values that at least two grids have measured.
 
     Each is at least the last change: temperature and stress converge with the film, but less
@@ -259,25 +260,35 @@ def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> 
         As in `discretisation_bar`.
     domain : float
         Relative error from the edges of the domain [-].
+    film : float
+        Relative bar of the central film [-].
     """
     found = {}
     for name, last in traces[-1].measured.items():
         values = [one.measured[name] for one in traces[-3:] if name in one.measured]
-        if name in ("spike", "excess", "rolling_tail", *FILM) or len(values) < 2 or last == 0.0:
+        if name in ("spike", "excess", *FILM) or name.endswith("_tail"):
+            continue
+        if len(values) < 2 or last == 0.0:
             continue
         bar = max(discretisation_bar(values, otherwise), abs(values[-1] - values[-2]))
         if "rise" in name:
             bar += LEAST_KELVIN  # the cycles stop there
         if name.startswith(("ripple", "heat")) or "rise" in name:
             bar *= UNEVEN
-        found[name] = abs(bar / last) + domain
-    heats = traces[-1].measured
+        found[name] = abs(bar / last) + domain + traces[-1].measured.get(f"{name}_tail", 0.0)
+    _raise_heats(found, traces[-1].measured, film)
+    return found
+
+
+def _raise_heats(found: dict[str, float], heats: dict[str, float], film: float) -> None:
+    """Raise bars ``found`` of powers to that of the ``film`` and of the heat they are part of."""
+    if "heat_shear" in found:  # the shear rate is the sliding speed over the film
+        found["heat_shear"] = max(found["heat_shear"], film)
     # parts of the heat that shear generates
     for name in ("heat_surface_1", "heat_surface_2", "heat_carried_out"):
         if name in found:
             shared = CONDUCTED * found["heat_shear"] * abs(heats["heat_shear"] / heats[name])
             found[name] = max(found[name], shared)
-    return found
 
 
 def _spike_reach(traces: list[GridTrace], errors: Mapping[str, float]) -> tuple[bool, float]:

@@ -10,7 +10,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.dry import dry_pressure
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import stress_unit
-from tehl.operators.loaded_zone import contact_mean, is_inside, wet_part, zone_of
+from tehl.operators.loaded_zone import beside, contact_mean, is_inside, wet_part, zone_of
 from tehl.operators.upstream import nothing, rolling, upstream_of
 from tehl.post.heat import Rises, lagrange_weights
 from tehl.post.roughness import ripples
@@ -71,18 +71,24 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
 
 
 def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
-    """Return traction and moment of the sliding of a contact, those that there are [-]."""
+    """Return traction and moment of the sliding of a contact, those that there are [-].
+
+    The ``_tail`` of each is the part of it that the zone may have beyond the sides of the grid.
+    """
     motion = scaled.problem.motion
     parts: dict[str, tuple[Part, float]] = {
         "traction_mid_film": ("x", scaled.moment.sliding),
         "traction_across": ("y", motion.sliding_ratio[1]),
         "drilling_moment": ("z", motion.spin_1 - motion.spin_2),
     }
-    return {
-        name: mid_film_traction(level, scaled, state, part=part)
-        for name, (part, speed) in parts.items()
-        if speed
-    }
+    found = {}
+    for name, (part, speed) in parts.items():
+        if speed:
+            found[name] = mid_film_traction(level, scaled, state, part=part)
+            wet = mid_film_stress(level, scaled, state, part) * wet_part(level.film.p)
+            inside = level.equations.load.integral(wet * zone_of(level.grid, scaled.groups.skew))
+            found[f"{name}_tail"] = abs(beside(level.grid, wet, scaled.groups.skew) / inside)
+    return found
 
 
 def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
