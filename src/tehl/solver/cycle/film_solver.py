@@ -128,8 +128,8 @@ class FilmSolver(GridIteration):
     def _go_on(self) -> int:
         """Take the finest of the grids that another strategy solved; return how many are solved.
 
-        It is no start for a third strategy, as two have ended on the next grid. A strategy that
-        heats coarser grids, or the sliding speed in steps, begins where they are isothermal.
+        A third strategy begins a grid lower, as two have ended on the next grid. A strategy that
+        heats coarser grids, or raises the sliding speed in steps, begins where they are isothermal.
         """
         strategy, grids = self.strategy, [level.grid for level in self.levels]
         while self.solved:
