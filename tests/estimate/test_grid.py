@@ -1,5 +1,6 @@
 """Grids and their halved_grids."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -82,6 +83,12 @@ def test_long_cells_are_halved_to_a_matrix_of_a_few_hundred_nodes(nx, coarsest):
     found = coarsest_of(grid(nx, nx // 2 + 1), 1.0)
     assert found.points == coarsest
     assert found.shape[0] > LEAST_LINES
+
+
+def test_lines_that_crowd_are_not_halved_to_few():
+    finest = replace(grid(257, 129), crowding=2.0)
+    assert coarsest_of(finest, 0.2).points == (33, 65)
+    assert coarsest_of(replace(finest, nx=65, ny=65), 0.2).points == (33, 33)  # the third for bars
 
 
 @pytest.mark.parametrize("mirror", [True, False])

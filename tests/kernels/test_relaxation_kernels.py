@@ -25,15 +25,21 @@ mark_dipoles, set_up, band_solve, complementarity, relax_batch, add_dipoles, wet
 )
 
 
-def relaxation_of(shape, xi=0.0, omega=(1.0, 1.0), influence=0.0):
-    nx = shape[1]
-    reach = np.arange(nx + 5)
+REACH = np.arange(8)
+
+
+def relaxation_of(shape, xi=0.0, omega=(1.0, 1.0), influence=0.0, parts=(0.25, 0.25)):
+    """Return settings under which a line bends itself by more the farther north it is."""
+    (ny, nx), (along, aside) = shape, parts
+    softer = influence * np.linspace(1.0, 2.0, ny)[:, np.newaxis]
+    of_dipoles = np.tile([along, aside, aside, aside], (ny, 1))
     return LineRelaxation(
         xi=xi,
         omega_point=omega[0],
         omega_dipole=omega[1],
-        point=influence / (1.0 + reach),
-        dipole=influence / (1.0 + reach) ** 3,
+        point=relaxation.by_lanes(softer / (1.0 + REACH)),
+        dipole=relaxation.by_lanes(softer / (1.0 + REACH) ** 3),
+        parts=relaxation.by_lanes(of_dipoles),
         kind=np.zeros(shape, np.uint8),
         delta=np.zeros(shape),
         frozen=np.zeros(shape, np.uint8),
@@ -57,7 +63,7 @@ def test_a_sweep_against_x_is_the_mirror_image_of_one_along_x(drift):
         )
         moved = moved._replace(drift=np.ascontiguousarray(moved.drift))
         settings = relaxation_of(shape, xi=20.0, omega=(0.7, 0.6), influence=0.2)
-        curved = np.array([settings.point[:8], settings.dipole[:8]])
+        curved = np.array([settings.point[1, :, 0], settings.dipole[1, :, 0]])
         relaxation.relax_lines(
             moved, stencil, np.ascontiguousarray(rhs[:, ::way]), settings._replace(curved=curved)
         )
@@ -118,7 +124,7 @@ def test_lines_that_are_far_apart_leave_each_other_their_kind_and_their_cavities
     film.eps[:] = 1e-6
     film.eps[3] = 1e4  # conducts well, but little flows to the lines beside
     film.p[3, 3:] = 0.0
-    setting = relaxation_of(shape, xi=1.0)._replace(apart=1, aside=0.01)
+    setting = relaxation_of(shape, xi=1.0, parts=(0.49, 0.01))._replace(apart=1)
     mark_dipoles(film, stencil, setting)
     expected = np.zeros(shape, np.uint8)
     expected[:, 1:-1] = 1
@@ -139,11 +145,11 @@ def test_the_band_is_the_derivative_of_the_operator(dipole, parts, mirror):
         j = 0
     nx = shape[1]
     film, stencil = random_film(shape, 4), stencil_of(mirror)
-    setting = relaxation_of(shape, influence=0.4)._replace(along=parts[0], aside=parts[1])
+    setting = relaxation_of(shape, influence=0.4, parts=parts)
     setting.kind[j, 1:-1] = dipole
     set_up(film, stencil, setting, (j, 1), (1, nx - 2))
     band = dense_band(setting.nodes, 0)
-    shapes = setting.dipole if dipole else setting.point
+    shapes = (setting.dipole if dipole else setting.point)[j % 2, :, j // 2]
     for k in range(1, nx - 1):
         change = np.zeros(shape)
         change[j, k] = 1.0
@@ -151,7 +157,7 @@ def test_the_band_is_the_derivative_of_the_operator(dipole, parts, mirror):
             change[j, [k - 1, k + 1]] = -parts[0]
             change[[j + 1, abs(j - 1)], k] = -parts[1]
         lift = np.zeros(shape)
-        lift[j] = shapes[np.abs(np.arange(nx) - k)]
+        lift[j] = np.append(shapes, np.zeros(nx))[np.abs(np.arange(nx) - k)]
 
         def moved(t, change=change, lift=lift):
             return operator_twin(

@@ -1,5 +1,7 @@
 """The discrete Reynolds operator against exact solutions and by its order."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,12 +9,19 @@ from tehl.base.typing import Array
 from tehl.contact.options import ROLLER_ENDS, Domain
 from tehl.estimate.grid import Grid
 from tehl.kernels import properties, reynolds
-from tehl.operators.influence import influence_of
-from tehl.operators.reynolds import line_influence, of_second_order, steady_stencil
+from tehl.operators.influence import influence_of, matrix_of
+from tehl.operators.reynolds import (
+    line_influence,
+    line_shapes,
+    of_second_order,
+    steady_stencil,
+)
 from tests.kernels.from_python import from_python
 from tests.operators.contacts import contact_groups, grid_of
 
-both, both_x = from_python(reynolds.both), from_python(reynolds.both_x)
+both, both_x, row_below, row_above = map(
+    from_python, (reynolds.both, reynolds.both_x, reynolds.row_below, reynolds.row_above)
+)
 BOX = Domain(x=(-2.0, 2.0), y=(-1.5, 1.5))
 
 
@@ -141,3 +150,46 @@ def test_a_dipole_changes_the_film_locally():
     # a quadrupole in its far field: falls off with the third power of the distance
     assert abs(dipole[7]) < 0.02 * dipole[0]
     assert point[7] > 0.02 * point[0]
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+def test_dipoles_on_lines_that_crowd_have_no_load_and_bend_their_line_as_stated(mirror):
+    ends = Domain.model_construct(x=(-1.0, 1.0), y=(-1.0, 1.0))
+    grid = Grid(nx=33, ny=33, domain=ends, mirror=mirror, crowding=1.8)
+    influence, i = influence_of(grid, contact_groups(4.0)), 16
+    shapes, matrix = line_shapes(grid, influence, (0.25, 0.25)), matrix_of(grid, influence)
+    rows = grid.shape[0]
+    for j in range(rows):
+        change, neighbours = np.zeros(grid.shape), (row_below(j, rows), row_above(j, rows))
+        along, aside, *_ = shapes.parts[j]
+        change[j, i], change[j, [i - 1, i + 1]] = 1.0, -along
+        for row in set(neighbours):
+            # as a sweep adds them: from the north to the line south and from the south
+            for side, beside in ((2, row_below(row, rows)), (3, row_above(row, rows))):
+                change[row, i] -= shapes.parts[row, side] if beside == j else 0.0
+        loads = change.sum(axis=1) * grid.widths
+        assert loads.sum() == pytest.approx(0.0, abs=1e-12 * grid.widths[j])
+        if mirror and j < 2:  # here images count too
+            continue
+        assert -change[list(neighbours), i].mean() == pytest.approx(aside, rel=1e-12)
+        found = (matrix @ change.ravel()).reshape(grid.shape)[j, i : i + 8]
+        # the matrix takes the mean of the work of each line on the other
+        np.testing.assert_allclose(found, shapes.dipole[j], atol=0.03 * shapes.dipole[j, 0])
+        if not mirror:
+            point = matrix[j * grid.nx + i].reshape(grid.shape)[j, i : i + 8]
+            np.testing.assert_allclose(point, shapes.point[j], rtol=0.05)
+
+
+def test_lines_that_hardly_crowd_have_the_dipoles_of_even_ones():
+    ends = Domain.model_construct(x=(-1.0, 1.0), y=(-1.0, 1.0))
+    even = Grid(nx=33, ny=33, domain=ends, mirror=True)
+    influence = influence_of(even, contact_groups(4.0))
+    ratio = (influence.dx / influence.dy) ** 2
+    parts = 0.5 / (1.0 + ratio), 0.5 * ratio / (1.0 + ratio)
+    nearly = replace(even, crowding=1e-4)
+    for one, other in zip(
+        line_shapes(nearly, influence, parts, 2),
+        line_shapes(even, influence, parts, 2),
+        strict=True,
+    ):
+        np.testing.assert_allclose(one[:-3], other[:-3], rtol=1e-6)

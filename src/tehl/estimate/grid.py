@@ -16,9 +16,11 @@ LONG_STRETCH = 5.0
 that changes from line to line is smooth along x there, and a grid with fewer lines lacks it."""
 LEAST_INTERVALS = 16
 """Fewest intervals of a coarsest grid."""
-LEAST_LINES = 12
+LEAST_LINES, LEAST_CROWDED = 12, 24
 """Fewest stored intervals across a coarsest grid with long cells: with 253 unknowns for the 625 of
-16 intervals, seven contacts of bearings take as many cycles."""
+16 intervals, seven contacts of bearings take as many cycles. Where lines crowd at the ends of a
+roller: with half as many the ends of lundberg profiles lack lines, and the cycles end at a residual
+of 1e-5. Only beside columns that halve twice or more: bars compare three grids."""
 END_CELL, LEAST_PART, CROWDING_STEPS = 1.4, 0.02, 40
 """Length of the last cells of a roller over their width: with 1 single nodes there alternate from
 cycle to cycle, with 2 the thinnest film of a logarithmic profile errs three times as much. Least
@@ -207,7 +209,9 @@ def coarsest_of(finest: Grid, widest: float) -> Grid:
     grid = finest
     while (half := halved(grid, (1, 0))) and (half.dx <= widest or grid is finest):
         grid = half
-    while (half := halved(grid, (0, 1))) and half.shape[0] > LEAST_LINES:
+    is_fine = finest.crowding > 0.0 and 4 * (grid.nx - 1) < finest.nx
+    least = LEAST_CROWDED if is_fine else LEAST_LINES
+    while (half := halved(grid, (0, 1))) and half.shape[0] > least:
         grid = half
     return grid
 

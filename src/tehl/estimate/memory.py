@@ -41,7 +41,7 @@ def needed_memory(options: Options, problem: ContactProblem | None = None) -> fl
     """
     nodes_y, nodes_x = options.shape
     found = float(_bytes_per_node(problem) * nodes_y * nodes_x)
-    if problem is not None and crowds_at_ends(problem, options):  # each line bends each other one
+    if problem is not None and crowds_at_ends(problem):  # each line bends each other one
         stored = (nodes_y + 1) // 2 if problem.is_even_in_y else nodes_y
         found += BYTES_PER_PAIR * nodes_x * stored**2
     return found

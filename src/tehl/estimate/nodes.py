@@ -232,7 +232,7 @@ def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
     halves = options.half_domain == "auto" and scaled.problem.is_even_in_y
     mirror = halves and can_mirror(options.shape, domain)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror)
-    if not (grid.is_closed and crowds_at_ends(scaled.problem, options)):
+    if not (grid.is_closed and crowds_at_ends(scaled.problem)):
         return grid
     least = END_CELL * grid.dx / (scaled.groups.ellipticity * grid.dy)
     return replace(grid, crowding=crowding(least))

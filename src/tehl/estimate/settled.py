@@ -82,25 +82,16 @@ def _of_one_row(problem: ContactProblem, options: Options) -> Options:
     return options.model_copy(update=changes)
 
 
-def crowds_at_ends(problem: ContactProblem, options: Options) -> bool:
+def crowds_at_ends(problem: ContactProblem) -> bool:
     """Return whether the lines of the grid crowd at the ends of a roller.
 
-    The energy equation, heights, time steps and dynamics need uniform ones, and so do cycles that
-    converge tightly: only a film of flooded oil alone, smooth, isothermal and steady has crowded
-    ones.
-
-    Parameters
-    ----------
-    problem : ContactProblem
-        Of any shape.
-    options : Options
-        With the accuracy.
+    The energy equation, heights, time steps and dynamics need uniform ones: only a film of flooded
+    oil alone, smooth, isothermal and steady has crowded ones.
     """
     others = (problem.supply, problem.cavitation, problem.dynamics, problem.asperities)
     if any(one is not None for one in others) or problem.is_coupled:
         return False
-    is_roller = problem.contact.type == "roller"
-    return is_roller and _is_smooth(problem) and options.accuracy != "tight"
+    return problem.contact.type == "roller" and _is_smooth(problem)
 
 
 def _is_smooth(problem: ContactProblem) -> bool:

@@ -24,7 +24,7 @@ from tehl.base.typing import Array, FlagArray, IntArray, Records
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.lanes import LANES, any_of, where
 from tehl.kernels.properties import Film, FlowTable
-from tehl.kernels.raw import raw
+from tehl.kernels.raw import lanes, raw
 from tehl.kernels.reynolds import (
     STEADILY,
     Stencil,
@@ -61,24 +61,27 @@ surfaces spin: weights of the wedge along x, and size of the drift."""
 FIELDS = (*LOADED, *BAND, "up_1", "up_2", "u", *FLUX)
 """Fields of a node; ``up_1, up_2, u`` are the eliminated upper bands and the solution."""
 U, OWN, UPSTREAM, FARTHER, BACK = (FIELDS.index(name) for name in ("u", *FLUX))
+ALONG, ASIDE, FROM_SOUTH, FROM_NORTH = range(4)
+"""Places in the parts of a dipole."""
 NODE = np.dtype([(name, np.float64, (LANES,)) for name in FIELDS])
 
 
 class LineRelaxation(NamedTuple):
     """Settings and workspace of the line relaxation.
 
-    ``point[m]`` and ``dipole[m]``: film at distance m along the line per unit change of a point
-    and of a dipole; ``kind`` (ny, nx) marks the dipoles; ``delta`` (ny, nx) stores them until both
-    colours are done; ``frozen`` (ny, nx) marks nodes of fixed pressure; ``stiffness`` (ny, nx) is
-    the contribution of the change of conductance to the diagonal (`stiffen`). ``rest`` (LANES, nx)
+    ``point`` and ``dipole``: film at distances along a line per unit change of a point and of a
+    dipole, of each line (`by_lanes`); ``parts``, of each line: by which its dipoles lower their
+    neighbours along x and, in the mean, along y; by which those of the lines south and north lower
+    it. ``kind`` (ny, nx) marks the dipoles; ``delta`` (ny, nx) stores them until both colours are
+    done; ``frozen`` (ny, nx) marks nodes of fixed pressure; ``stiffness`` (ny, nx) is the
+    contribution of the change of conductance to the diagonal (`stiffen`). ``rest`` (LANES, nx)
     holds the residuals of eight lines, ``nodes`` (nx + 6,) their systems as records `NODE`;
     ``cells`` (nx + 6, FIELDS, LANES) is a view of ``nodes`` as numbers. From node ``ends[j]`` (ny,)
-    on, all of line j is frozen. A dipole lowers each neighbour along x by ``along`` and along y by
-    ``aside`` of its rise. ``touches`` is 1 with asperities finer than the grid. ``curved`` (2, n)
-    is the wedge along y of the film of a point and of a dipole, over rho and the drift, where the
-    surfaces spin; lines of negative speed are then solved against x, in their direction. ``apart``
-    is 1 on a roller whose lines are far apart: then it matters to a node what flows to the lines
-    beside, not how well they conduct or if they are cavitated.
+    on, all of line j is frozen. ``touches`` is 1 with asperities finer than the grid. ``curved``
+    (2, n) is the wedge along y of the film of a point and of a dipole, over rho and the drift,
+    where the surfaces spin; lines of negative speed are then solved against x, in their direction.
+    ``apart`` is 1 on a roller whose lines are far apart: then it matters to a node what flows to
+    the lines beside, not how well they conduct or if they are cavitated.
     """
 
     xi: float
@@ -94,11 +97,20 @@ class LineRelaxation(NamedTuple):
     nodes: Records
     cells: Array
     ends: IntArray
-    along: float = 0.25
-    aside: float = 0.25
+    parts: Array
     touches: int = 0
     curved: Array = np.zeros((0, 0))
     apart: int = 0
+
+
+def by_lanes(lines: Array) -> Array:
+    """Return values (ny, m) of lines by colour, value and lane: lines of one colour are in turn."""
+    ny, count = lines.shape
+    found = np.zeros((2, count, (ny + 1) // 2 + LANES))
+    for colour in range(2):
+        own = lines[colour::2].T
+        found[colour, :, : own.shape[1]] = own
+    return found
 
 
 def workspace(nx: int) -> tuple[Array, Records, Array]:
@@ -288,27 +300,38 @@ def _leave_out(cells: Array, lane: int, span: Span) -> None:
 
 
 @helper
-def _fill_band(relaxation: LineRelaxation, stencil: Stencil, i: int) -> None:
-    """Fill the coefficients of node ``i``: change of L there per unit change of each unknown."""
+def _fill_band(relaxation: LineRelaxation, stencil: Stencil, first: int, i: int) -> None:
+    """Fill the coefficients of node ``i``: change of L there per unit change of each unknown.
+
+    ``first`` is the first line of the batch.
+    """
     if relaxation.curved.shape[0] > 0:
         here = relaxation.nodes[i + 3]
         weights = here.own, here.upstream, here.farther
-        _fill_row(relaxation, i, weights, relaxation.nodes[i + 2].east)
+        _fill_row(relaxation, (first, i), weights, relaxation.nodes[i + 2].east)
         _add_drift(relaxation, i)
         return
     if stencil.conserves == STEADILY:
         here = relaxation.nodes[i + 3]
-        _fill_row(relaxation, i, (here.own, here.upstream, here.farther), here.back)
+        weights = here.own, here.upstream, here.farther
+        _fill_row(relaxation, (first, i), weights, here.back)
         return
     w0, w1, w2 = stencil.w0, stencil.w1, stencil.w2
     if i == 1:
         w0, w1, w2 = w0 - w2, w1 + 2.0 * w2, 0.0
-    _fill_row(relaxation, i, (w0, w1, w2), relaxation.nodes[i + 2].east)
+    _fill_row(relaxation, (first, i), (w0, w1, w2), relaxation.nodes[i + 2].east)
+
+
+@helper
+def _shape(field: Array, first: int) -> tuple[Any, Any, Any, Any, Any]:
+    """Return the film of the lines of a batch at distances 0 to 4 along them."""
+    of_colour, at = field[first % 2], lanes(first // 2)
+    return of_colour[0, at], of_colour[1, at], of_colour[2, at], of_colour[3, at], of_colour[4, at]
 
 
 @helper
 def _fill_row(
-    relaxation: LineRelaxation, i: int, weights: tuple[Any, Any, Any], west_east: Any
+    relaxation: LineRelaxation, place: Span, weights: tuple[Any, Any, Any], west_east: Any
 ) -> None:
     """Fill the coefficients of node ``i``.
 
@@ -319,15 +342,17 @@ def _fill_row(
     ----------
     relaxation : LineRelaxation
         Settings and systems.
-    i : int
-        Number of the node.
+    place : (int, int)
+        First line of the batch, and number of the node.
     weights : three floats or lanes
         Of the mass of the node and of the two nodes upstream.
     west_east : lanes
         Conductance to the west.
     """
-    nodes, p, d = relaxation.nodes, relaxation.point, relaxation.dipole
-    along, aside = relaxation.along, relaxation.aside
+    (first, i), nodes = place, relaxation.nodes
+    p, d = _shape(relaxation.point, first), _shape(relaxation.dipole, first)
+    parts, at = relaxation.parts[first % 2], lanes(first // 2)
+    along, aside = parts[ALONG, at], parts[ASIDE, at]
     d0, d1, d2, d3, d4 = d[0] - p[0], d[1] - p[1], d[2] - p[2], d[3] - p[3], d[4] - p[4]
     w0, w1, w2 = weights
     farthest, far, west, here, east, beyond = (
@@ -355,7 +380,8 @@ def _fill_row(
         around = far.hardness + west.hardness + here.hardness + east.hardness
         if any_of(around * p[0] > NEGLIGIBLE_PART):
             hardness = a_ww * far.hardness, a_w * west.hardness
-            _add_asperities(relaxation, i, (*hardness, a_c * here.hardness, a_e * east.hardness))
+            slopes = *hardness, a_c * here.hardness, a_e * east.hardness
+            _add_asperities(relaxation, place, slopes)
 
 
 @helper
@@ -375,12 +401,15 @@ def _add_drift(relaxation: LineRelaxation, i: int) -> None:
 
 
 @helper
-def _add_asperities(relaxation: LineRelaxation, i: int, slopes: tuple[Any, Any, Any, Any]) -> None:
+def _add_asperities(
+    relaxation: LineRelaxation, place: Span, slopes: tuple[Any, Any, Any, Any]
+) -> None:
     """Add the change of the oil pressure as asperities take some: p = P - p_a(H).
 
-    ``slopes`` are dL/dp times -dp_a/dH at nodes i - 2 .. i + 1.
+    ``slopes`` are dL/dp times -dp_a/dH at nodes i - 2 .. i + 1; ``place`` as in `_fill_row`.
     """
-    nodes, p, d = relaxation.nodes, relaxation.point, relaxation.dipole
+    (first, i), nodes = place, relaxation.nodes
+    p, d = _shape(relaxation.point, first), _shape(relaxation.dipole, first)
     e_ww, e_w, e_c, e_e = slopes
     farthest, far, west, here, east, beyond = (
         nodes[i], nodes[i + 1], nodes[i + 2], nodes[i + 3], nodes[i + 4], nodes[i + 5]
@@ -531,7 +560,7 @@ def set_up(
             _leave_out(relaxation.cells, lane, (start, stop))
         ready = high if stop == end else stop - EMPTY_MARGIN_NODES
         for i in range(max(start - EMPTY_MARGIN_NODES + 1, low), ready + 1):
-            _fill_band(relaxation, stencil, i)
+            _fill_band(relaxation, stencil, first, i)
 
 
 @helper
@@ -587,14 +616,17 @@ def relax_lines(film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxa
 def add_dipoles(film: Film, relaxation: LineRelaxation, mirror: int) -> None:
     """Add the stored dipoles to ``p`` and clip at zero unless asperities carry."""
     p, delta, ends, (ny, nx) = film.p, relaxation.delta, relaxation.ends, film.p.shape
+    parts = relaxation.parts
     touches = film.stiffness.shape[0] > 0
     for j in range(0 if mirror else 1, inner_end(ny, mirror)):
         south, north = row_below(j, ny), row_above(j, ny)
-        end = max(ends[j], ends[south], ends[north])
+        colour, slot, end = j % 2, j // 2, max(ends[j], ends[south], ends[north])
+        along, below = parts[colour, ALONG, slot], parts[colour, FROM_SOUTH, slot]
+        above = parts[colour, FROM_NORTH, slot]
         for i in range(1, min(end + 1, nx - 1)):
-            around = relaxation.along * (delta[j, i - 1] + delta[j, i + 1])
+            around = along * (delta[j, i - 1] + delta[j, i + 1])
             if not relaxation.apart or p[j, i] != 0.0:
-                around += relaxation.aside * (delta[south, i] + delta[north, i])
+                around += below * delta[south, i] + above * delta[north, i]
             changed = p[j, i] + delta[j, i] - around
             p[j, i] = changed if touches else max(changed, 0.0)
 

@@ -88,7 +88,9 @@ _COMPLEX = np.empty((0, 0), complex)
 _NODES = relaxation.workspace(0)[1]
 _SCRATCH = records.scratch(1, records.BLOCK, 1)
 ISOTHERMAL = (
-    _sample(relaxation.relax_lines, 2.4, point=1, dipole=1, nodes=_NODES, cells=3),
+    _sample(
+        relaxation.relax_lines, 2.4, nodes=_NODES, **_axes(3, "point", "dipole", "parts", "cells")
+    ),
     *(
         _sample(
             step,

@@ -78,6 +78,39 @@ class Influence:
         found[ends] = lines[ends]
         return np.asarray(found)
 
+    def beside(self, grid: Grid, reach: int, columns: int) -> Array:
+        """Return the influence of lines that crowd on those near them.
+
+        Parameters
+        ----------
+        grid : Grid
+            Its lines.
+        reach, columns : int
+            Most lines between both, and offsets along them from zero on.
+
+        Returns
+        -------
+        array (2 reach + 1, rows, columns)
+            Of the lines to the south, of itself, and of those to the north; zero beyond ends. Lines
+            beyond a symmetry line count as others.
+        """
+        stretch, y, faces = self.dy / grid.dy, grid.y, grid.faces
+        images = np.zeros(0), np.zeros(0)
+        if grid.mirror:
+            images = -faces[:1:-1], -y[:0:-1]
+        faces, first = np.concatenate([images[0], faces]), images[1].size
+        u = self.dx * (np.arange(columns + 1.0) - 0.5)
+        found = np.zeros((2 * reach + 1, y.size, columns))
+        for number, offset in enumerate(range(-reach, reach + 1)):
+            of = first + np.arange(y.size) + offset
+            inside = (of >= 0) & (of < faces.size - 1)
+            low, high = (
+                _corner(u, (stretch * (faces[of[inside] + end] - y[inside]))[:, None])
+                for end in (0, 1)
+            )
+            found[number, inside] = self.factor * np.diff(high - low, axis=1)
+        return found
+
     def _of_cells(self, u: Array, v: Array) -> Array:
         """Return the influence of cells between the corners u and v."""
         cells: Array = np.diff(np.diff(_corner(u, v[:, None]), axis=0), axis=1)

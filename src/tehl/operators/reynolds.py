@@ -283,6 +283,80 @@ def line_influence(
     return point.copy(), dipole
 
 
+class LineShapes(NamedTuple):
+    """What the change of one node moves, of each line of a grid."""
+
+    point: Array
+    dipole: Array
+    """Film at offsets from zero along the line per unit change of a node and of a dipole, (rows,
+    `INFLUENCE_NODES`)."""
+    parts: Array
+    """By which dipoles lower their neighbours along x and, in the mean, along y, and are lowered by
+    those of the lines south and north, (rows, 4)."""
+
+
+def line_shapes(
+    grid: Grid, influence: Influence, parts: tuple[float, float], lines: int = 0
+) -> LineShapes:
+    """Return what the change of one node moves on lines of a grid.
+
+    Parameters
+    ----------
+    grid, influence : Grid, Influence
+        Nodes, and the deflection per unit pressure.
+    parts : (float, float)
+        As of `line_influence`, where lines are uniform.
+    lines : int
+        Lines to each side that change with the line of a point.
+    """
+    if grid.crowding:
+        return _crowded_shapes(grid, influence, lines)
+    point, dipole = line_influence(influence, parts)
+    others = (influence(line + 1, slice(0, point.size)) for line in range(lines))
+    point += 2.0 * sum(others, np.zeros(point.size))  # lines on both sides move along
+    along, aside = parts
+    every = np.array([along, aside, aside, aside])
+    return LineShapes(*(np.tile(one, (grid.shape[0], 1)) for one in (point, dipole, every)))
+
+
+def _crowded_shapes(grid: Grid, influence: Influence, lines: int) -> LineShapes:
+    """Return those of lines that crowd.
+
+    With widths w, distances d of the lines south and north, and a the part along x, dipoles have
+    no load, no moment, and the same second moment both ways: for the load m w of the neighbours
+
+        2 a + m_S + m_N = 1,   m_S d_S = m_N d_N,   m_S d_S^2 + m_N d_N^2 = 2 a dx^2.
+
+    At ends both neighbours are one.
+    """
+    reach = max(lines, 1)
+    films = influence.beside(grid, reach, INFLUENCE_NODES + 1)
+    y, cells = influence.dy / grid.dy * grid.y, np.diff(grid.faces)
+    south, north = np.diff(y, prepend=2.0 * y[0] - y[1]), np.diff(y, append=2.0 * y[-1] - y[-2])
+    per_distance = 1.0 / ((south + north) * (1.0 / grid.dx**2 + 1.0 / (south * north)))
+    along = 0.5 * per_distance * (south + north) / grid.dx**2
+    rows = np.arange(y.size)
+    below, above = np.abs(rows - 1), y.size - 1 - np.abs(y.size - 2 - rows)
+    lowers = np.array(  # the lines south and north, by its own dipole
+        [per_distance / distance * cells for distance in (south, north)]
+    ) / [cells[below], cells[above]]
+    ends, aside = [-1] if grid.mirror else [0, -1], 0.5 * lowers.sum(axis=0)
+    for end in ends:
+        aside[end] *= 2.0
+        lowers[:, end] = (0.0, aside[end]) if end == 0 else (aside[end], 0.0)
+    lowered = np.array([lowers[1, below], lowers[0, above]])
+    if grid.mirror:
+        lowered[0, 0] = lowers[0, 1]
+    for end in ends:
+        lowered[:, end] = 0.5 * lowered[1 if end == 0 else 0, end]
+    own, beside = films[reach][:, :INFLUENCE_NODES], films[[reach - 1, reach + 1], :, :-1]
+    west = films[reach][:, [1, *range(INFLUENCE_NODES - 1)]]
+    dipole = own - along[:, None] * (west + films[reach][:, 1:])
+    dipole -= (lowers[:, :, None] * beside).sum(axis=0)
+    point = films[reach - lines : reach + lines + 1, :, :-1].sum(axis=0)
+    return LineShapes(point, dipole, np.array([along, aside, *lowered]).T)
+
+
 def curved_influence(influence: Influence, stencil: Stencil, parts: tuple[float, float]) -> Array:
     """Return the wedge along y, over rho and drift, of the film of a point and a dipole, (2, n).
 

@@ -16,10 +16,6 @@ from tehl.solver.cycle.relaxation import Relaxation, make_smoother
 from tehl.solver.physics.cavity import cavity_of
 from tehl.solver.physics.share import share_of
 
-AT_ENDS = (1.0, 0.3)
-"""The correction where lines crowd at the ends of a roller: the coarser grids, with cells much
-shorter along y than along x there, overshoot at single nodes by factors of up to ten."""
-
 
 class Level:
     """One grid with its unknowns.
@@ -51,7 +47,7 @@ class Level:
         self.total = np.zeros(shape)  # pressure of oil and asperities
         self.heights: Array | None = None
         # of the correction of the next finer grid: factor, and limit of its relative change of P
-        self.correction = AT_ENDS if equations.grid.crowding else relaxation.correction
+        self.correction = relaxation.correction
         self.factors: properties.Factors | None = None
         self.is_stale = True
 

@@ -19,8 +19,8 @@ from tehl.kernels.properties import Film
 from tehl.kernels.reynolds import CLOSED, Stencil
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence
-from tehl.operators.reynolds import curved_influence, line_influence
-from tehl.solver.cycle.equations import Equations
+from tehl.operators.reynolds import curved_influence, line_influence, line_shapes
+from tehl.solver.cycle.equations import FLOOR, Equations
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -57,7 +57,7 @@ CAREFUL = Relaxation(name="careful", threshold=1.0, point=0.5, dipole=0.35, line
 DAMPED = Relaxation(name="damped", threshold=1.0, point=0.3, dipole=0.2, lines=4, stiff=True)
 BESIDE_NEWTON = Relaxation(name="newton", threshold=1.0, point=0.5, dipole=0.35)
 GAUSS_SEIDEL = Relaxation(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
-HELD, HELD_LONG, ROLLER_STRETCH, ROLLER_POINT = 1.0, 0.8, 1.5, 0.45
+HELD, HELD_LONG, ROLLER_STRETCH = 1.0, 0.8, 1.5
 LINE_THRESHOLD, LINE_POINT, LINE_DIPOLE = 3.0, 0.7, 0.67
 """In a line contact: conductance to neighbours that are held, over that along the line, and factors
 on the settings. The one line holds all unknowns, and its system lacks the deflection from afar: it
@@ -65,11 +65,13 @@ must not move smooth errors, as lines between held ones do not. Least number of 
 200, L = 0 to 11 on 513 to 2049 nodes: 0.2 to 0.5 of the residual is left by each. The second is
 that of long cells, beside which lines are held a little: with it 0.24 to 0.32 is left for a_y/a_x =
 10 to 50, M = 1000 to 4000. The third is the length of cells over their width from which on those
-of a roller are long: as all its lines are alike, an error at the end of its film is one of all.
-The fourth is the factor on the points of rollers, beside which lines are not held: with that of
-lines, an error of the inlet that all lines share grows (M = 150, 65 to 257 columns), and where they
-are held, the load of crowned ones alternates from cycle to cycle. 0.3 to 0.4 of the residual is
-left for a length of 10 to 40 widths, M = 10 to 150, crowned and logarithmic profiles."""
+of a roller are long: as all its lines are alike, an error at the end of its film is one of all."""
+ROLLER_POINT, THIN_FILM, POINT_OF_THIN, ROLLER_LINES = 0.7, 0.006, 0.45, 4
+"""Of rollers, beside whose lines none are held: factor on the points; central film below which that
+is the third one [-]; lines to each side that change with one. An error of the inlet that all lines
+share grows with a factor of 0.8 at M = 150, and with 0.7 at M = 300 (film 0.004). Where lines are
+held, the load of crowned ones alternates from cycle to cycle. 0.2 to 0.35 of the residual is left
+for a length of 8 to 140 widths, M = 5 to 150, crowned, logarithmic and lundberg profiles."""
 
 
 def is_long(stencil: Stencil, *, touches: bool = False) -> bool:
@@ -143,9 +145,8 @@ class LineSmoother:
         parts: tuple[float, float] = (0.25, 0.25),
         curved: Array | None = None,
     ) -> None:
-        point, dipole = line_influence(influence, parts)
-        others = (influence(line + 1, slice(0, point.size)) for line in range(relaxation.lines))
-        point += 2.0 * sum(others, np.zeros(point.size))  # lines on both sides move along
+        shapes = line_shapes(grid, influence, parts, relaxation.lines)
+        point, dipole, of_dipoles = map(kernels.by_lanes, shapes)
         self.frozen = np.zeros(grid.shape, np.uint8)
         self.ends = np.full(grid.shape[0], grid.nx - 1)
         self.stiffness = np.zeros(grid.shape)
@@ -164,8 +165,7 @@ class LineSmoother:
             nodes=nodes,
             cells=cells,
             ends=self.ends,
-            along=parts[0],
-            aside=parts[1],
+            parts=of_dipoles,
             touches=int(touches),
             curved=np.zeros((0, 0)) if curved is None else curved,
         )
@@ -236,13 +236,14 @@ def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
     settings, touches = relaxation, equations.asperities is not None
     apart = is_long(equations.stencil, touches=touches)
     if apart:
-        point = ROLLER_POINT if equations.grid.is_closed else LINE_POINT
-        settings = replace(
-            relaxation,
-            threshold=LINE_THRESHOLD * relaxation.threshold,
-            point=point * relaxation.point,
-            dipole=LINE_DIPOLE * relaxation.dipole,
-        )
+        settings = replace(relaxation, threshold=LINE_THRESHOLD * relaxation.threshold)
+        if equations.grid.is_closed:
+            point = ROLLER_POINT if equations.floor > FLOOR * THIN_FILM else POINT_OF_THIN
+            lines = max(ROLLER_LINES, relaxation.lines)
+            settings = replace(settings, point=point * relaxation.point, lines=lines)
+        else:
+            point, dipole = LINE_POINT * relaxation.point, LINE_DIPOLE * relaxation.dipole
+            settings = replace(settings, point=point, dipole=dipole)
     influence = equations.influence
     parts = _dipole_parts(influence, equations.stencil, touches=touches)
     spins = equations.entrainment.speed.size > 0

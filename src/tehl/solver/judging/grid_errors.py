@@ -27,7 +27,7 @@ nodes)."""
 LINE_MINIMUM = 2.0
 """Factor on the bar of the minimum of a line contact with a wedge of third order: without it 95 %
 of 120 random films lie inside, as judged on 8193 and 16385 nodes, with it 97 %. On that of a roller
-only where the last change is at most `LARGEST_THIRD_CHANGE`, as a larger one is bar enough: of a
+only where the last change is at most `LARGEST_THIRD_CHANGE`, as all of a larger one is enough: of a
 logarithmic roller (M = 20) two of five grids lie outside without it, against 513 x 513 nodes."""
 THIRD_PART, THIRD_BEFORE = 0.6, 8.0
 """The same of a wedge of third order, and change before over the last one beyond which two grids
@@ -131,6 +131,8 @@ def error_estimate(  # noqa: PLR0913 (one estimate)
         doubles = kind == "line" or (kind == "roller" and changes[-1] < LARGEST_THIRD_CHANGE * film)
         if doubles and order > 2 and name == "minimum":
             bar *= LINE_MINIMUM
+        elif kind == "roller" and name == "minimum":
+            bar = max(bar, changes[-1])
         part = LEAST_MINIMUM if name == "minimum" else LEAST_CENTRAL
         bar = max(bar, SHARED * changes[0]) / film
         bar = min(bar, _largest_bar(changes[-1] / film, most))
