@@ -143,7 +143,7 @@ def test_a_failure_has_its_hint_in_a_second_line():
         kind="stalled", cause="grid_too_coarse", message="too coarse", hint=Hint("take 513")
     )
     assert failure_text(status, None) == (
-        "tehl: not converged (stalled): too coarse\nhint: take 513"
+        "tehl: not converged (grid_too_coarse): too coarse\nhint: take 513"
     )
     assert failure_text(Status(kind="diverged"), "NaN").endswith("(diverged): NaN")
 

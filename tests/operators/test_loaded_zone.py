@@ -6,7 +6,15 @@ import pytest
 from tehl.contact.options import Domain
 from tehl.estimate.grid import Grid
 from tehl.operators.load import Load
-from tehl.operators.loaded_zone import RADIUS, beside, is_inside, wet_part, zone_of, zone_part
+from tehl.operators.loaded_zone import (
+    RADIUS,
+    beside,
+    contact_mean,
+    is_inside,
+    wet_part,
+    zone_of,
+    zone_part,
+)
 
 
 def disc(points: int, edge: float = 3.1, skew: float = 0.0) -> float:
@@ -66,3 +74,9 @@ def test_the_front_of_a_discrete_film_is_found_between_nodes(front):
 
 def test_a_single_wet_node_is_not_widened():
     assert wet_part(np.array([[0.0, 1.0, 0.0, 0.0]])).sum() == 1.0
+
+
+def test_the_mean_over_a_contact_within_a_cell_is_the_value_at_its_middle():
+    x, y = np.linspace(-4e4, 4e4, 81), np.linspace(0.0, 4e4, 41)
+    field = 2.0 + np.hypot.outer(y, x)
+    assert contact_mean(x, y, field) == 2.0

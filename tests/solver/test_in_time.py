@@ -1,6 +1,7 @@
 """Load, speed and radius that change in time: films of another program, steady ones, oil."""
 
 import tomllib
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,13 +10,15 @@ from scipy.interpolate import CubicSpline
 from tehl import InputError, certify_transient, solve, solve_transient
 from tehl.api.problem import ContactProblem
 from tehl.api.results import TransientResult
-from tehl.contact.moment import courses_of, moment_at
+from tehl.contact.moment import Moment, courses_of, moment_at
 from tehl.contact.options import Domain, Options
 from tehl.estimate.scaling import scales
+from tehl.estimate.schedule import Schedule
 from tehl.io.templates import template_text
 from tehl.operators.reynolds import carried
 from tehl.operators.trail import VaryingTrail
 from tehl.solver.monitor import SILENT
+from tehl.solver.transient.oil import Lead, Oil
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import Snapshot, pack, unpack
 from tests.reference import moes_contact, read
@@ -153,6 +156,39 @@ def test_a_field_is_carried_to_fourth_order_and_fronts_stay_monotone():
         assert moved.sum() == pytest.approx(front.sum() + 0.9 * distance, rel=1e-12)
         assert moved.min() >= 0.1 - 1e-12
         assert moved.max() <= 1.0 + 1e-12
+
+
+@pytest.mark.parametrize("stride", [1, 2, 4])
+def test_oil_keeps_nothing_of_a_film_that_has_left(stride):
+    """The kink of the first film leaves with the motion, where solid oil flows by nothing else."""
+    spacing, x = 0.05, 0.05 * np.arange(101)
+    kink = 1.0 + 0.5 * np.maximum(0.0, 1.0 - np.abs(x - 2.5) / 0.15)[None, :]
+    film = SimpleNamespace(rho=np.ones_like(kink), h=kink)
+    level = SimpleNamespace(
+        film=film,
+        grid=SimpleNamespace(dx=spacing),
+        stencil=SimpleNamespace(conserves=0),
+        equations=SimpleNamespace(contact_film=None),
+        cavity=SimpleNamespace(held=lambda _: film.h),
+    )
+    step, (first, later) = stride * spacing, (Moment(), Moment(load=1.5))
+    schedule = Schedule(step=step, moments=(first, later), travelled=None)
+    oil, largest = Oil(level, stride, 3, schedule), 0.0
+    for number in range(400 // stride):
+        film.h = oil.brought(number) * step / 1.5
+        oil.accept(later)
+        largest = max(largest, float(np.abs(film.h - 1.0).max()))
+    assert largest < 1.5  # no wave grows on its way
+    assert np.abs(film.h - 1.0).max() < 1e-6  # a difference that stays with the first film: 0.7
+
+
+def test_the_lead_of_a_film_that_has_left_is_forgotten():
+    kink = np.maximum(0.0, 1.0 - np.abs(np.arange(101.0) - 50.0) / 3.0)[None, :]
+    lead = Lead(kink, 0.05, 3, follows=0.1)
+    for _ in range(200):
+        lead.update(np.zeros_like(kink))
+        lead.advance()
+    assert np.abs(lead.onward()).max() < 1e-6
 
 
 def test_a_file_a_table_and_a_formula_state_the_same(tmp_path):

@@ -17,6 +17,7 @@ from tehl.solver.cycle.relaxation import BROAD, FAST
 from tehl.solver.judging.convergence import DivergedError
 from tehl.solver.monitor import SILENT
 from tests.reference import moes_contact
+from tests.solver.test_line import line
 
 OPTIONS = Options(extrapolate=True)
 NODES = 193
@@ -187,3 +188,11 @@ def test_a_very_steep_front_converges(
     found = steady.try_strategies(ring, options, monitor=SILENT, rough=False)[1]
     assert found.status.converged
     assert abs(found.history[-1].temperature_rise) < 60.0
+
+
+def test_a_line_stays_one_row_with_a_wedge_of_another_order(monkeypatch):
+    """Strategies with a wedge of their own have as many lines as columns, but on a line contact."""
+    second = (Strategy(relaxation=FAST, wedge_order=2),)
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: second)
+    found = steady.solve(line(20.0, 10.0), Options(points=129, extrapolate=True))
+    assert found.scaled.film.shape == (1, 129)

@@ -172,5 +172,5 @@ def test_a_trial_ends_at_the_cycle_after_the_time_that_is_left(monkeypatch):
     monkeypatch.setattr(steady, "try_strategies", goes_on)
     start = time.perf_counter()
     result = steady._after_failure(failed, None, SILENT, start - 10.0)
-    assert "No setting is known" in str(result.status.hint)
+    assert "more numerics.max_time tries more" in str(result.status.hint)
     assert time.perf_counter() - start < 2.0

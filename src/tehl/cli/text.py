@@ -51,7 +51,7 @@ def _expected_traction(result: Result) -> float | None:
 
 def failure_text(status: Status, reason: str | None) -> str:
     """Return why a result did not converge, and the hint in a second line if there is one."""
-    message = f"tehl: not converged ({status.kind}): {status.message or reason}"
+    message = f"tehl: not converged ({status.cause or status.kind}): {status.message or reason}"
     return f"{message}\nhint: {status.hint}" if status.hint else message
 
 

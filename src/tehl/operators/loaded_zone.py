@@ -89,6 +89,8 @@ def beside(grid: Grid, field: Array, skew: float = 0.0) -> float:
 def contact_mean(x: Array, y: Array, field: Array, skew: float = 0.0) -> float:
     """Return the mean of a field over the Hertz contact, of second order in the mesh width.
 
+    Of a contact within a cell, far from the elastic limit, it is the value at the middle.
+
     Parameters
     ----------
     x, y : (nx,), (ny,) array
@@ -100,6 +102,8 @@ def contact_mean(x: Array, y: Array, field: Array, skew: float = 0.0) -> float:
     """
     rows = np.diff(_edges(y)) if y.size > 1 else np.ones(1)
     cells = np.outer(rows, np.diff(_edges(x))) * zone_part(x, y, radius=1.0, skew=skew)
+    if not cells.any():
+        return float(field[np.abs(y).argmin(), np.abs(x).argmin()])
     return float((cells * field).sum() / cells.sum())
 
 

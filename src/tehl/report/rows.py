@@ -53,7 +53,7 @@ def rows_of(result: Solution, place: str) -> Iterator[Row]:
                 quantity=one,
                 value=value,
                 on_grid=on_grid.get(one.path),
-                scaled=None if other is None else on_grid.get(other.path),
+                scaled=None if other is None else numbers.get(other.path),
                 error=one.error_in(numbers),
             )
 

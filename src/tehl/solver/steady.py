@@ -113,7 +113,8 @@ class Climb:
             if strategy.wedge_order is not None and strategy.wedge_order != plan.order:
                 plan = plan.model_copy(update={"wedge_order": strategy.wedge_order})
                 nodes = plan.shape[1]
-                plan, solved = self.goal.fitting(plan.on_points(nodes, nodes)), ()
+                lines = 1 if self.scaled.problem.contact.is_line else nodes
+                plan, solved = self.goal.fitting(plan.on_points(nodes, lines)), ()
             # Newton's method is expensive: the cycles before it are tried to the end
             force = all(one.newton for one in rungs[number + 1 :])
             attempt = self._attempt(plan, strategy, solved, force=force)
@@ -221,6 +222,8 @@ def _after_failure(
     on_others = solved_on_other_nodes(failed, attempt, monitor, end)
     if on_others is not None:
         return on_others.but(options=failed.options)
+    if failed.status.cause == "error_not_reached" and failed.errors is not None:
+        reached = failed.scaled.film.shape[::-1], failed.errors.film()
     hint = working_hint(failed, attempt, monitor, end, reached)
     failed = failed.but(status=replace(failed.status, hint=hint))
     if reached is None or failed.status.cause == "error_not_reached":  # its film is the best

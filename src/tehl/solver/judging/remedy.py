@@ -84,8 +84,9 @@ def working_hint(
         The film that converged on the way: nothing worse is named.
     """
     now = time.perf_counter()
-    end = max(min(now + TRIAL_TIME_FACTOR * failed.cost.wall_seconds, end), now + LEAST_SECONDS)
-    found = None
+    enough = now + TRIAL_TIME_FACTOR * failed.cost.wall_seconds
+    found, is_short = None, end < enough
+    end = max(min(enough, end), now + LEAST_SECONDS)
     least = math.inf if reached is None else reached[1]
     for trials in (_default_domain(failed), _errors(failed, least), _other_physics(failed)):
         for settings, problem, options in trials:
@@ -100,6 +101,8 @@ def working_hint(
     if reached is not None:
         (nx, ny), error = reached
         return Hint(f"{grid_size((nx, ny))} converged.", error_setting(error))
+    if is_short and end <= time.perf_counter():
+        return Hint("The time to try other settings was over: more numerics.max_time tries more.")
     return Hint("No setting is known with which this contact converges.")
 
 

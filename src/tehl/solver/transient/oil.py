@@ -1,5 +1,7 @@
 """Oil that former films bring to a time step: its mass along the mean motion, and corrections."""
 
+import math
+
 import numpy as np
 
 from tehl.base.typing import Array
@@ -8,6 +10,10 @@ from tehl.estimate.schedule import Schedule
 from tehl.operators.reynolds import carried, steady_flux, steady_wedge, upstream
 from tehl.solver.cycle.level import Level
 from tehl.solver.physics.cavity import oil_flow
+
+FOLLOWING_TIME = 1.0
+"""Time in which the mass that keeps its own wedge follows the film [a_x/u_m]: a part of a passage.
+Pure motion stays stable, as the fast changes that pass a node are averaged out."""
 
 
 class Oil:
@@ -25,16 +31,26 @@ class Oil:
 
     def __init__(self, level: Level, stride: int, order: int, schedule: Schedule) -> None:
         self.level, self.stride, self.schedule = level, stride, schedule
+        self.order, self.follows = order, 0.0
+        self.fastest = max(abs(one.speed) for one in schedule.moments)
         self.steady, self.wedge = _steady_oil(level, order)
-        mirrored = steady_wedge(self.steady[:, ::-1], level.grid.dx, order)
-        self.against = -mirrored[:, ::-1]  # the wedge where the film moves against x
+        varies = any(one != schedule.moments[0] for one in schedule.moments)
+        if varies and not level.stencil.conserves and level.equations.contact_film is None:
+            self.follows = min(schedule.step / FOLLOWING_TIME, 1.0)
+        self.against = self._wedge_against()
         self.now, self.before = self.steady.copy(), self.steady.copy()
+
+    def _wedge_against(self) -> Array:
+        """Return the wedge where the film moves against x."""
+        mirrored = steady_wedge(self.steady[:, ::-1], self.level.grid.dx, self.order)
+        return np.asarray(-mirrored[:, ::-1])
 
     def brought(self, number: int) -> Array:
         """Return the known terms of wedge and squeeze in a step, (ny, nx).
 
-        The mass of the steady film keeps its own wedge, whatever the stride; only the difference to
-        it is differentiated along the motion.
+        The mass of the steady film, or of one that follows the film where load or motion vary,
+        keeps its own wedge, whatever the stride; only the difference to it is differentiated along
+        the motion.
         """
         steady, wedge, passed = self.steady, self.wedge, self.schedule.passed(number)
         conserves = self.level.stencil.conserves > 0
@@ -65,6 +81,29 @@ class Oil:
             for edge in level.grid.edge_rows:
                 held[edge] = self.steady[edge]
         self.before, self.now = self.now, held
+        if self.follows:
+            self.follow(self.steady + self.follows * (self._resolved(held) - self.steady))
+
+    def _resolved(self, mass: Array) -> Array:
+        """Return a mass without the waves that a step moves by their whole length."""
+        nodes = max(math.ceil(self.stride * self.fastest), 1)
+        window = np.convolve(np.full(nodes, 1.0 / nodes), np.full(nodes, 1.0 / nodes))
+        wider = np.pad(mass, ((0, 0), (nodes - 1, nodes - 1)), mode="edge")
+        found = np.zeros_like(mass)
+        for shift, weight in enumerate(window):
+            found += weight * wider[:, shift : shift + mass.shape[1]]
+        return found
+
+    def follow(self, steady: Array) -> None:
+        """Take another mass, (ny, nx), as the steady one that keeps its own wedge.
+
+        Both differences of a kink, as at the end of the film, err by other amounts. At the place of
+        one that has gone the oil of each step would keep that error, and single nodes of every
+        stride one of their own.
+        """
+        self.steady = steady
+        self.wedge = steady_wedge(steady, self.level.grid.dx, self.order)
+        self.against = self._wedge_against()
 
 
 def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
@@ -166,14 +205,22 @@ class Lead:
         q of the steady film [-]; None if it is always zero.
     spacing, wedge_order : float, int
         Mesh width along x [a_x], and order of the upstream difference of the steady film.
+    follows : float
+        Part of the way to the film of each step by which the q that keeps its own difference goes.
     """
 
-    def __init__(self, lead: Array | None, spacing: float, wedge_order: int) -> None:
-        self.steady = np.zeros((0, 0)) if lead is None else lead
-        self.own = self.steady if lead is None else steady_wedge(lead, spacing, wedge_order)
-        self.spacing = spacing
+    def __init__(
+        self, lead: Array | None, spacing: float, wedge_order: int, follows: float = 0.0
+    ) -> None:
+        self.spacing, self.wedge_order, self.follows = spacing, wedge_order, follows
+        self.follow(np.zeros((0, 0)) if lead is None else lead)
         self.past = np.stack([self.steady, self.steady])
         self.now, self.rate = self.steady, -self.own
+
+    def follow(self, steady: Array) -> None:
+        """Take another q, (ny, nx), as the one that keeps its own difference."""
+        self.steady = steady
+        self.own = steady_wedge(steady, self.spacing, self.wedge_order) if steady.size else steady
 
     def onward(self) -> Array | float:
         """Return -dq/dx at the start of a step, with q extrapolated linearly in time."""
@@ -194,6 +241,8 @@ class Lead:
         """Accept the present q as the previous one of the next step."""
         self.past[1] = self.past[0]
         self.past[0] = self.now
+        if self.follows and self.steady.size:
+            self.follow(self.steady + self.follows * (self.now - self.steady))
 
     def _rate(self, lead: Array) -> Array:
         """Return -dq/dx: the steady film keeps its own difference, the change has a central one."""

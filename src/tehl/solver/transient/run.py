@@ -29,6 +29,7 @@ from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import Attempt, try_strategies
 from tehl.solver.transient.checks import check_peaks, check_size, check_stride, check_waves
 from tehl.solver.transient.snapshot import ANEW, COLUMNS, Record, Snapshot, kept_steps
+from tehl.solver.transient.oil import Lead
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
 
 SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
@@ -205,8 +206,10 @@ class Run:
                 "asperity": self.level.film.asperity,
                 "mass": self.stepper.oil.now,
                 "mass_before": self.stepper.oil.before,
+                "mass_steady": self.stepper.oil.steady,
                 "pressure_changes": self.stepper.predictor.past,
                 "excess": self.stepper.squeeze.past,
+                "excess_steady": self.stepper.squeeze.steady,
                 **self.stepper.solver.coupling.pack(self.stepper.solver.levels),
             },
             record=self.record,
@@ -222,8 +225,14 @@ class Run:
         self._check(snapshot)
         oil = self.stepper.oil
         oil.now, oil.before = fields.pop("mass"), fields.pop("mass_before")
+        steady = fields.pop("mass_steady")
+        if oil.follows:
+            oil.follow(steady)
         self.stepper.predictor.past = fields.pop("pressure_changes")
-        self.stepper.squeeze.past = fields.pop("excess")
+        squeeze, excess = self.stepper.squeeze, fields.pop("excess_steady")
+        squeeze.past = fields.pop("excess")
+        if isinstance(squeeze, Lead):
+            squeeze.follow(excess)
         pressure, asperity = fields.pop("pressure"), fields.pop("asperity")
         level.set_state(pressure, snapshot.rigid_approach, asperity)
         self.stepper.choose(snapshot.setting)

@@ -103,7 +103,8 @@ class Stepper:
             self.method = self.touching.step
         self.squeeze: Squeeze | Lead
         if varying is not None:
-            self.squeeze = Lead(self._lead(), level.grid.dx, solver.options.order)
+            lead, spacing = self._lead(), level.grid.dx
+            self.squeeze = Lead(lead, spacing, solver.options.order, self.oil.follows)
         else:
             step = (schedule.step, level.grid.dx, transient.stride)
             excess = solver.coupling.excess()
