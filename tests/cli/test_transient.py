@@ -229,7 +229,9 @@ def test_a_start_that_diverges_is_reported_as_a_diverged_steady_case(folder, run
     ]
     done = run("solve", "wave.toml", *standing, "--json", "--plot", "pictures")
     assert done.code == 1
-    assert "not converged (grid_too_coarse): The steady film at time zero did not converge" in done.err
+    assert (
+        "not converged (grid_too_coarse): The steady film at time zero did not converge" in done.err
+    )
     assert "hint: Take lower or longer asperities" in done.err
     summary = json.loads(done.out)
     assert summary["status"] == "diverged"

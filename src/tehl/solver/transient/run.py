@@ -28,8 +28,8 @@ from tehl.solver.judging.measures import is_resolved, mid_film_stress, mid_film_
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import Attempt, try_strategies
 from tehl.solver.transient.checks import check_peaks, check_size, check_stride, check_waves
-from tehl.solver.transient.snapshot import ANEW, COLUMNS, Record, Snapshot, kept_steps
 from tehl.solver.transient.oil import Lead
+from tehl.solver.transient.snapshot import ANEW, COLUMNS, Record, Snapshot, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
 
 SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
