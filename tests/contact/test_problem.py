@@ -202,6 +202,7 @@ IMPOSSIBLE = [
     ("contact.radius", None, "contact.radius is missing"),
     ("contact.load", 1e300, "far outside the physical range"),
     ("contact.entrainment_speed", 1e-200, "far outside the physical range"),
+    ("contact.slide_roll_ratio", 1e300, "over their mean, at most 1e\\+06"),
     ("surface_1.radius", 0.01, "stated twice"),
     ("surface_1.radius_x", 0.01, "both radius_x and radius_y"),
     ("surface_1.roughness", {"type": "wave"}, "amplitude"),

@@ -326,9 +326,10 @@ def test_the_last_relaxation_before_newton_continues_to_the_finest_grid(
     seen: list[tuple[str, bool]] = []
     run = steady._run
 
-    def noted(*args: Any, force: bool) -> Any:
+    def noted(*args: Any, force: bool, **solved: Any) -> Any:
         seen.append((args[0].strategy.name, force))
-        return replace(run(*args, force=force), status=Status(kind="stalled", cause="stalled"))
+        found = run(*args, force=force, **solved)
+        return replace(found, status=Status(kind="stalled", cause="stalled"))
 
     monkeypatch.setattr(steady, "_run", noted)
     smooth = wavy((20.0, 10.0), (0.01, 2.0, 0.0))

@@ -47,6 +47,9 @@ COLDEST_TEMPERATURE, HOTTEST_TEMPERATURE = 200.0, 800.0
 """Limits of the temperature of an oil or a solid [K]."""
 LARGEST_RATIO = 1e3
 """Largest ratio of the reduced radii, either way: beyond it the contact is a line contact."""
+LARGEST_SLIDING = 1e6
+"""Largest sliding over the entrainment: bodies that move against each other entrain nearly nothing
+from some 1e3 on."""
 
 
 @part_of_case("", "contact", "lubricant", "thermal", "transient")
@@ -133,6 +136,11 @@ def check_size(problem: PointContact) -> None:
             "load, speed and Hertz pressure are far outside the physical range (Moes numbers "
             f"M = {load_number:.3g}, L = {speed_number:.3g}): check the units of contact, "
             "materials and viscosity"
+        )
+    if not abs(problem.slide_roll_ratio) <= LARGEST_SLIDING:
+        raise ValueError(
+            f"contact.slide_roll_ratio = {problem.slide_roll_ratio:g} is (u_1 - u_2) over their "
+            f"mean, at most {LARGEST_SLIDING:g}: check the speeds"
         )
 
 
