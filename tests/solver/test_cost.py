@@ -15,12 +15,17 @@ def test_the_unit_of_work_grows_with_the_grid():
     assert 0.0 < fft_seconds(65, 65) < fft_seconds(513, 513)
 
 
-def test_work_is_the_cost_in_units_of_the_same_grid():
-    result = with_work(solve(moes_problem(20.0, 10.0), Options(points=129)))
-    assert result.cost.work is not None
-    # the unit is measured twice: equal up to the noise of a shared machine
-    again = result.cost.cpu_seconds / fft_seconds(129, 129)
-    assert result.cost.work == pytest.approx(again, rel=0.9)
+def test_work_is_the_cost_in_units_of_the_same_grid(monkeypatch):
+    asked = []
+
+    def quarter(*nodes):
+        asked.append(nodes)
+        return 0.25
+
+    monkeypatch.setattr(cost, "fft_seconds", quarter)
+    result = with_work(solve(moes_problem(20.0, 10.0), Options(points=(129, 65))))
+    assert asked == [(129, 65)]
+    assert result.cost.work == pytest.approx(4.0 * result.cost.cpu_seconds)
 
 
 @pytest.mark.parametrize("tick", [0.0156, 1e9])
