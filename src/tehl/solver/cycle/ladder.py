@@ -145,7 +145,8 @@ COMBINED_CYCLES = 3
 bearings with M = 8,000. Between asperities it takes more cycles; with a wedge of second order, the
 last resort, steep spikes (L = 29) diverge."""
 STEEP_SPEED = 13.0
-"""Moes speed L above which `UNCOMBINED` comes before the combined cycles."""
+"""Moes speed L above which `UNCOMBINED` comes before the combined cycles. Nine contacts of machines
+whose first strategy fails take 0.75 of the CPU time by this and by going on from solved grids."""
 STARVED_DAMPING = 0.3
 """Damping of the second strategy where the oil is scarce: with 0.5, which saves a fifth of the time
 of 30 flooded contacts, the edge of the film of an inner ring (M = 2,500) does not rest."""

@@ -39,7 +39,8 @@ LARGEST_KELVIN_CHANGE = 0.1
 """Change of temperature per cycle at any node, over the largest rise, beyond which the temperature
 is not converged. Nodes at the spike change most, and matter least."""
 SHARE_ERROR = 2e-3
-"""Iteration error of the part of the load where surfaces touch that is always accepted [-]."""
+"""Iteration error of the part of the load where surfaces touch that is always accepted [-]: a
+twentieth of the least error bar of it, of random and grooved surfaces on 257 nodes 0.04 to 0.14."""
 RISE_ERROR = 0.005
 """Relative iteration error of the largest rise that is always accepted."""
 LEAST_KELVIN = 0.02

@@ -85,7 +85,7 @@ class Oil:
             self.follow(self.steady + self.follows * (self._resolved(held) - self.steady))
 
     def _resolved(self, mass: Array) -> Array:
-        """Return a mass without the waves that a step moves by their whole length."""
+        """Return a mass without the waves that the fastest step moves by their whole length."""
         nodes = max(math.ceil(self.stride * self.fastest), 1)
         window = np.convolve(np.full(nodes, 1.0 / nodes), np.full(nodes, 1.0 / nodes))
         wider = np.pad(mass, ((0, 0), (nodes - 1, nodes - 1)), mode="edge")
