@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 
 import tehl
+from tehl.cli.text import as_text
 from tehl.contact.options import Domain, Options
 from tehl.estimate.domain import domain_of
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.third_order import third_order_bar
 from tehl.operators.dry import dry_pressure
+from tehl.plots import pressure_map
+from tehl.plots.frame import pressure_top
 
 STEEL = {"material": "steel"}
 LOGARITHMIC = {"shape": "logarithmic"}
@@ -17,11 +20,9 @@ LOGARITHMIC = {"shape": "logarithmic"}
 
 def contact(**stated: object) -> tehl.ContactProblem:
     """Return a contact of steel with L = 10."""
+    oil = stated.pop("lubricant", "mineral-oil")
     return tehl.ContactProblem(
-        contact={"moes_speed": 10.0, **stated},
-        surface_1=STEEL,
-        surface_2=STEEL,
-        lubricant="mineral-oil",
+        contact={"moes_speed": 10.0, **stated}, surface_1=STEEL, surface_2=STEEL, lubricant=oil
     )
 
 
@@ -167,6 +168,17 @@ def test_lines_crowd_at_the_ends_and_resolve_the_film_there():
     assert found.errors.minimum < 0.08  # uniform lines err by a third
 
 
+def test_lines_of_thinning_films_crowd_too():
+    """On uniform lines the minimum is 0.025 on 129 x 65 nodes and 0.0055 on 257 x 129."""
+    oil = {"name": "mineral-oil", "shear": {"law": "eyring", "stress": "5 MPa"}}
+    thinning = roller(profile=LOGARITHMIC, slide_roll_ratio=0.3, lubricant=oil)
+    found = tehl.solve(thinning, Options(points=(129, 65)))
+    assert found.scaled.y[-1] - found.scaled.y[-2] < 0.003
+    # 257 x 129 nodes, three strategies
+    assert found.film_scaled.minimum == pytest.approx(0.01831, rel=0.01)
+    assert found.traction.mid_film == pytest.approx(-0.05358, rel=2e-3)
+
+
 def test_a_sharp_end_under_pressure_has_no_thinnest_film():
     found = tehl.solve(roller(), Options(points=(129, 129), wedge_order=3))
     assert abs(found.film_scaled.minimum_at[1]) == 1.0
@@ -174,6 +186,22 @@ def test_a_sharp_end_under_pressure_has_no_thinnest_film():
     assert found.errors.film() == found.errors.central < 0.05
     assert "the minimum film has no limit" in found.status.message
     assert found.status.outcome == "converged, minimum film open"
+
+
+def test_the_largest_pressure_at_a_sharp_end_has_no_limit_and_does_not_scale_pictures():
+    """It is 3.7, 5.2 and 7.8 Hertz pressures on 97, 129 and 257 nodes."""
+    found = tehl.solve(roller(20.0, profile=LOGARITHMIC, tilt=2e-4), Options(points=(97, 49)))
+    assert not found.errors.pressure_has_limit
+    assert found.errors.minimum_has_limit
+    assert found.errors.of("pressure_max") is None
+    assert found.status.outcome == "converged, largest pressure open"
+    assert "grows with each finer grid" in found.status.message
+    assert found.summary()["errors"]["pressure_has_limit"] is False
+    assert "at the sharp end, without limit" in as_text(found)
+    top = pressure_top(found) / found.scales.hertz_pressure
+    assert 1.0 < top < 0.7 * found.scaled.pressure.max()
+    colours = pressure_map(found).axes[0].collections[0]
+    assert colours.get_clim()[1] == pytest.approx(top * found.scales.hertz_pressure * 1e-9)
 
 
 def test_a_roller_is_certified_between_its_ends():

@@ -75,6 +75,7 @@ def _maps(maps: Maps, ratios: Ratios) -> Maps:
         film=maps.film * ratios.film,
         pressure=maps.pressure * ratios.pressure,
         central=maps.central * ratios.film,
+        top=maps.top * ratios.pressure,
         minimum=tuple((x * ratios.x, y * ratios.y) for x, y in maps.minimum),
         skew=ratios.skew,
     )

@@ -78,7 +78,7 @@ def film_limits(maps: Maps) -> Limits:
 
 def pressure_limits(maps: Maps) -> Limits:
     """Return the colours of a pressure."""
-    return Limits(0.0, max(float(maps.pressure.max()), 1e-6))
+    return Limits(0.0, max(maps.top, 1e-6))
 
 
 def section_limits(section: Section) -> Limits:

@@ -85,7 +85,8 @@ def _centre_line(
         place, film, pressure, hertz = line
         if not style:
             parts += of_pressure.path(place, hertz, "line dashed pressure")
-        parts += of_pressure.path(place, pressure, f"line {style}pressure")
+        clipped = np.where(pressure <= top[1], pressure, np.nan)
+        parts += of_pressure.path(place, clipped, f"line {style}pressure")
         clipped = np.where(film <= top[0], film, np.nan)
         parts += of_film.path(place, clipped, f"line {style}film")
     if lines[1] is not None:

@@ -7,6 +7,7 @@ from tehl.api.results import Result
 from tehl.estimate.film_formulas import FilmEstimate
 from tehl.post.following import Following
 from tehl.report.explain import Explanation
+from tehl.result.bars import ErrorEstimate
 from tehl.result.derived import KAPPA, has_solids
 from tehl.result.quantity import Quantity, without_unit
 from tehl.result.registry import NumbersOf, shown_in
@@ -102,6 +103,14 @@ def _formulas(result: Result, explanation: Explanation) -> dict[str, Formulas]:
     return found
 
 
+def _why_pressure_is_open(errors: ErrorEstimate | None) -> str:
+    if errors is None or (errors.pressure_has_limit and errors.spike_resolved):
+        return ""
+    if not errors.pressure_has_limit:
+        return "at the sharp end of the roller it has no limit"
+    return "the spike is narrower than the mesh and may be higher"
+
+
 def _remarks(found: Following, explanation: Explanation) -> dict[str, str]:
     """Return why there is no value, or what limits it, by the paths of the quantities."""
     result, no_film = found.solution, not found.solution.film.minimum > 0
@@ -111,8 +120,7 @@ def _remarks(found: Following, explanation: Explanation) -> dict[str, str]:
         rough = explanation.composite > 0
         missing = NO_FILM if rough else "state the roughness of the surfaces"
         remarks |= dict.fromkeys(("roughness.lambda_central", "kappa"), missing)
-    if result.errors is not None and not result.errors.spike_resolved:
-        remarks["pressure.max_pa"] = "the spike is narrower than the mesh and may be higher"
+    remarks["pressure.max_pa"] = _why_pressure_is_open(result.errors)
     if found.temperature is None:
         remarks["temperature_max"] = "isothermal; switch the heat on"
     unknown = found.touching is not None and not found.touching.is_share_known

@@ -7,7 +7,7 @@ import numpy as np
 from tehl.api.results import Result
 from tehl.base.typing import Array
 from tehl.explore.numbers import Number, numbers
-from tehl.plots.frame import WINDOW, span_part, stretched, window, window_part
+from tehl.plots.frame import WINDOW, pressure_top, span_part, stretched, window, window_part
 from tehl.plots.interferogram import Optics, colours
 from tehl.plots.stress import DEEPEST_SHOWN, finer
 from tehl.post.stress.influence import COMPONENTS
@@ -45,6 +45,8 @@ class Maps:
     """[GPa]."""
     central: float
     """Central film [nm]."""
+    top: float
+    """Pressure at which scales end [GPa]."""
     minimum: tuple[tuple[float, float], ...] = ()
     """Places of the minimum film [um]."""
     skew: float = 0.0
@@ -169,6 +171,7 @@ def maps_of(result: Result) -> Maps:
         film=_single(result.film_thickness[rows, columns] * 1e9),
         pressure=_single(result.pressure[rows, columns] * 1e-9),
         central=result.film.central * 1e9,
+        top=pressure_top(result) * 1e-9,
         minimum=_minimum(result, half),
         skew=result.groups.skew,
     )
@@ -191,6 +194,7 @@ def _strip(result: Result) -> Maps:
         film=film,
         pressure=pressure,
         central=result.film.central * 1e9,
+        top=pressure_top(result) * 1e-9,
     )
 
 

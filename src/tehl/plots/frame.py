@@ -25,7 +25,7 @@ MICRO, GIGA = 1e6, 1e-9
 WINDOW = ((-2.2, 1.6), (-1.7, 1.7))
 """Part of the domain that is shown, along x and y [Hertz half-widths]."""
 STEPS = (1, 2, 2.5, 5, 10)
-ARROWS = 8
+ARROWS = 5
 """Velocities along each axis of a map of surfaces that spin."""
 BLUE, ORANGE, GREEN = "#1f4e9c", "#c2410c", "#3f7d20"
 PRESSURE, FILM = BLUE, ORANGE
@@ -39,6 +39,11 @@ PLAIN: dict[str, Any] = {"fontsize": 8, "frameon": False}
 _ALARM: dict[str, Any] = {"color": "white", "backgroundcolor": "#b3001b", "weight": "bold"}
 _LONGEST_SIDE = 5.8
 _SLENDER_PICTURE = 6.0
+_ARROW_PART = 0.5
+"""Length of the longest arrow over the distance of arrows along x."""
+_END = 0.5
+"""Distance from the ends of a roller within which its pressure may have no limit, in half-widths.
+"""
 _DRAWN = 1.6
 """Largest height over width, or width over height, of a map as drawn."""
 
@@ -214,6 +219,18 @@ def window(result: Solution) -> tuple[Span, Span]:
     return spans[0], spans[1]
 
 
+def pressure_top(result: Solution) -> float:
+    """Return the pressure at which scales end [Pa]: the largest one that has a limit, or zero.
+
+    The pressure at the sharp end of a roller has none, and would leave no colours to the rest.
+    """
+    pressure = np.nan_to_num(result.pressure, nan=0.0, posinf=0.0, neginf=0.0)
+    if result.errors is not None and not result.errors.pressure_has_limit:
+        inside = result.groups.ellipticity * (1.0 - np.abs(result.scaled.y)) > _END
+        pressure = pressure[inside]
+    return max(float(pressure.max(initial=0.0)), 0.0)
+
+
 def stretched(result: Solution) -> float:
     """Return the scale of y over that of x on maps: one unless the window is slender."""
     true = slenderness(result)
@@ -347,9 +364,11 @@ def _arrow_places(axes: Axes) -> tuple[Array, Array]:
 
 
 def _arrows(axes: Axes, field: tuple[Array, Array], colour: str) -> None:
-    style: dict[str, Any] = {"color": colour, "width": 0.004, "zorder": 4}
-    arrows = axes.quiver(*_arrow_places(axes), *field, angles="xy", pivot="mid", **style)
-    arrows.set_path_effects(outline("0.3", 1.4))
+    fastest = float(np.hypot(*field).max()) or 1.0
+    style: dict[str, Any] = {"color": colour, "width": 0.003, "headwidth": 4.0, "zorder": 4}
+    style |= {"angles": "xy", "pivot": "mid", "scale": fastest * ARROWS / _ARROW_PART}
+    arrows = axes.quiver(*_arrow_places(axes), *field, **style)
+    arrows.set_path_effects(outline("0.3", 0.9))
 
 
 def mark_levels(bar: Colorbar, lines: QuadContourSet) -> None:

@@ -23,6 +23,7 @@ from tehl.plots.frame import (
     centre_row,
     figure,
     figure_of,
+    pressure_top,
     single,
     span_part,
 )
@@ -38,6 +39,8 @@ _LINE_HALF_WIDTHS = 1.25
 _AROUND = (-1.4, 1.4)
 """Part of both axes with profiles of the pressure [half-widths]."""
 _PROFILES = 45
+_PRESSURE_ROOM = 1.05
+"""End of the scale of a pressure without limit, over the largest one that has one."""
 
 
 def centre_lines(result: Solution, *, title: bool | None = True) -> Figure:
@@ -92,6 +95,8 @@ def _pressure_and_film(axes: Axes, result: Solution, profile: Profile, line: Lin
     axes.plot(place, profile.pressure * GIGA, color=PRESSURE, lw=1.4, label="pressure")
     axes.set_ylabel("pressure p [GPa]", color=PRESSURE)
     axes.set_ylim(bottom=0.0)
+    if result.errors is not None and not result.errors.pressure_has_limit:
+        axes.set_ylim(top=_PRESSURE_ROOM * pressure_top(result) * GIGA)
     film.plot(place, profile.dry_gap * MICRO, color=FILM, lw=0.8, ls=":", label="dry gap")
     film.plot(place, profile.film_thickness * MICRO, color=FILM, lw=1.4, label="film")
     if result.oil is not None:
@@ -221,8 +226,8 @@ def pressure_surface(result: Solution, *, title: bool | None = True) -> Figure:
     every = np.arange(result.scaled.y.size)[span_part(result.scaled.y, _AROUND)]
     rows = np.unique(np.linspace(every[0], every[-1], _PROFILES).round().astype(int))
     x, y = result.x[columns] * MICRO, result.y[rows] * MICRO
-    pressure = np.nan_to_num(result.pressure[rows][:, columns] * GIGA)
-    top = max(float(pressure.max()), 1e-9)
+    top = max(pressure_top(result) * GIGA, 1e-9)
+    pressure = np.minimum(np.nan_to_num(result.pressure[rows][:, columns] * GIGA), 1.02 * top)
     ends = np.concatenate([x[:1], x, x[-1:]])
     curtains = [
         np.column_stack([ends, np.full(ends.size, place), np.pad(row, 1)])

@@ -28,6 +28,7 @@ from tehl.plots.frame import (
     map_axes,
     mark_levels,
     nice_levels,
+    pressure_top,
     shape,
     sliding_arrows,
     window_part,
@@ -161,13 +162,15 @@ def pressure_map(result: Solution, *, ax: Axes | None = None, title: bool | None
         Whether a new figure has a title.
     """
     places, pressure = window_places(result), result.pressure[window_part(result)] * GIGA
-    top = float(np.max(pressure, initial=0.0, where=np.isfinite(pressure)))
+    top = pressure_top(result) * GIGA
     levels = nice_levels((0.0, top if top > 0 else 1.0), 8)
     levels = levels[(levels > 0) & (levels < top)] if top > 0 else levels[1:]
     axes = map_axes(result, ax=ax, title=title)
-    mesh = axes.pcolormesh(*places, pressure, cmap="cividis", **MAP)
+    scale: dict[str, Any] = {"cmap": "cividis", "vmin": 0.0, "vmax": top or None}
+    mesh = axes.pcolormesh(*places, pressure, **scale, **MAP)
     lines = axes.contour(*places, _smoothed(pressure), levels=levels, **_LINES)
-    mark_levels(colour_bar(axes, mesh, "pressure p [GPa]"), lines)
+    above = "max" if np.nan_to_num(pressure).max() > top else "neither"
+    mark_levels(colour_bar(axes, mesh, "pressure p [GPa]", extend=above), lines)
     return figure_of(axes)
 
 

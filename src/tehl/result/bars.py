@@ -75,6 +75,9 @@ class ErrorEstimate:
     minimum_has_limit: bool = True
     """Whether the minimum film has a limit on finer grids, and so an error bar: not where it lies
     at the sharp end of a roller, under a pressure that has none."""
+    pressure_has_limit: bool = True
+    """Whether the largest pressure has a limit on finer grids, and so an error bar: not where it is
+    that of the end of a roller."""
 
     @property
     def central(self) -> float:

@@ -431,7 +431,8 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity("convergence.work_balance_error", lambda found: found.work_error),
     *plain("errors", "central minimum discretisation_central discretisation_minimum"),
     *plain("errors", "iteration_central iteration_minimum domain supply"),
-    *plain("errors", "extrapolated spike_resolved minimum_has_limit"),
+    *plain("errors", "extrapolated spike_resolved"),
+    *plain("errors", "minimum_has_limit pressure_has_limit"),
     Quantity("cost.points.0", lambda result: [result.scaled.x.size, result.scaled.y.size]),
     *of_part("cost", "cost", "cpu_seconds wall_seconds work"),
 )

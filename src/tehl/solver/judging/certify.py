@@ -21,7 +21,7 @@ from tehl.solver.judging.richardson import (
     spike_reach,
     with_growing_spike,
 )
-from tehl.solver.judging.verdict import LARGEST_FILM_BAR, too_coarse
+from tehl.solver.judging.verdict import LARGEST_FILM_BAR, TOO_COARSE, too_coarse
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.physics.bodies import solve
 
@@ -99,6 +99,8 @@ def certify(
         _needed(finest, wide, "the larger domain"),
     )
     message = _message(first, middle, finest, wide)
+    if finest.status.cause is not None:  # the largest pressure has no limit
+        message = f"{message} {finest.status.message}"
     result = result.but(status=replace(finest.status, message=message, hint=None))
     worst = widest(result.uncertainty, JUDGED)
     if worst > LARGEST_FILM_BAR:
@@ -116,7 +118,7 @@ def _message(
     message = message_on([first.ending, middle.ending, _ending(finest)], wide.ending)
     if first.result is None:
         return f"{message} {WITHOUT_FIRST}"
-    if first.result.status.is_vague or not first.result.status.converged:
+    if _is_coarse(first.result.status) or not first.result.status.converged:
         message += (
             " Where the first grid hides the order of the scheme, a bar is the full change between "
             "the other two."
@@ -140,11 +142,14 @@ def _companion(problem: ContactProblem, options: Options, monitor: Monitor) -> C
 
 def _ending(result: Solution) -> str:
     """Return the nodes of a run and how it ended."""
-    status = result.status
-    coarse = status.is_vague or status.cause in ("grid_too_coarse", "film_not_positive")
-    return (
-        f"{nodes_of(result.grid_options)} {'too coarse for the film' if coarse else status.outcome}"
-    )
+    coarse = _is_coarse(result.status)
+    ending = "too coarse for the film" if coarse else result.status.outcome
+    return f"{nodes_of(result.grid_options)} {ending}"
+
+
+def _is_coarse(status: Status) -> bool:
+    """Whether a grid resolves no film, or not its minimum."""
+    return (status.is_vague and status.cause is None) or status.cause in TOO_COARSE
 
 
 def _has_converged(result: Solution) -> bool:
@@ -290,8 +295,11 @@ def _with_bars(
         )
         for name in wider
     }
-    highest = uncertainty["pressure_max"]
-    uncertainty["pressure_max"] = with_growing_spike(highest, reach_of_spike(used))
+    if finest.errors is None or finest.errors.pressure_has_limit:
+        highest = uncertainty["pressure_max"]
+        uncertainty["pressure_max"] = with_growing_spike(highest, reach_of_spike(used))
+    else:
+        del uncertainty["pressure_max"]
     if finest.problem.contact.type == "roller" and finest.errors is not None:
         # before its ends the film shows one order on fine grids alone: the bar of the solve too
         least, bar = uncertainty["film_minimum"], finest.errors.of("film_minimum") or 0.0

@@ -21,7 +21,7 @@ from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.convergence import GridTrace
 from tehl.solver.judging.grid_errors import error_estimate, single_grid_estimate
-from tehl.solver.judging.measures import is_thinnest_at_end
+from tehl.solver.judging.measures import is_pressed_at_end, is_thinnest_at_end
 
 FACTOR = 5.0
 """Expected time on a grid over that on the next coarser one, which has a quarter of its nodes."""
@@ -62,10 +62,17 @@ def estimated_errors(
         The contact, and the order of the wedge.
     """
     found = _by_grids(level, traces, roughness, hierarchy)
-    return found and replace(
+    if found is None:
+        return None
+    bars, at_end = found.bars, is_pressed_at_end(level)
+    if at_end:
+        bars = {name: bar for name, bar in bars.items() if name != "pressure_max"}
+    return replace(
         found,
+        bars=bars,
         supply=supply_error(hierarchy.scaled),
         minimum_has_limit=not is_thinnest_at_end(level),
+        pressure_has_limit=not at_end,
     )
 
 

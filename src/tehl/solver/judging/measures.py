@@ -6,6 +6,7 @@ from typing import Literal
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.dry import dry_pressure
 from tehl.operators.energy import FilmState
@@ -123,10 +124,21 @@ def is_thinnest_at_end(level: Level) -> bool:
 
     Its pressure has no limit at a sharp end, and the film has none either.
     """
-    film, grid = level.film, level.grid
+    film = level.film
     row = int(film.h.min(axis=1).argmin())
-    ends = (grid.shape[0] - 1,) if grid.mirror else (0, grid.shape[0] - 1)
-    return grid.is_closed and row in ends and float(film.p[row].max()) > LOADED_END
+    return row in ends_of(level.grid) and float(film.p[row].max()) > LOADED_END
+
+
+def is_pressed_at_end(level: Level) -> bool:
+    """Whether the pressure is largest at the end of a roller, where it has no limit."""
+    return int(level.film.p.max(axis=1).argmax()) in ends_of(level.grid)
+
+
+def ends_of(grid: Grid) -> tuple[int, ...]:
+    """Return the stored rows at the ends of a roller, none of other contacts."""
+    if not grid.is_closed:
+        return ()
+    return (grid.shape[0] - 1,) if grid.mirror else (0, grid.shape[0] - 1)
 
 
 def solid_friction(level: Level) -> float:

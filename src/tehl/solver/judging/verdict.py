@@ -35,6 +35,11 @@ from tehl.solver.judging.outputs import asperity_balance, contact_balance, heat_
 CONVERGED = Status(kind="converged")
 TOO_COARSE = ("grid_too_coarse", "film_not_positive")
 """Causes that a finer grid removes."""
+RELIEVE = Hint(
+    "Relieve the ends: a profile with a larger drop, such as that of contact.profile.shape = "
+    '"lundberg" or "crown", less tilt, or less load.'
+)
+"""What to try where a sharp end of a roller is loaded."""
 LARGEST_FILM_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is too coarse."""
 UNKNOWN_MINIMUM_ERROR = 1.0
@@ -130,10 +135,12 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
         error = max(error, errors.discretisation_minimum)
     if error > LARGEST_FILM_BAR:
         return too_coarse(points, run.hierarchy.scaled, error)
-    return CONVERGED if errors.minimum_has_limit else _without_limit(level)
+    if not errors.minimum_has_limit:
+        return _thinnest_at_end(level)
+    return CONVERGED if errors.pressure_has_limit else _pressed_at_end(level)
 
 
-def _without_limit(level: Level) -> Status:
+def _thinnest_at_end(level: Level) -> Status:
     """Return ``converged`` with a warning: the minimum lies at a sharp end under pressure."""
     smallest, _, y = thinnest(level)
     return Status(
@@ -143,10 +150,23 @@ def _without_limit(level: Level) -> Status:
             "under a pressure that grows with each finer grid: the minimum film has no limit, and "
             "no error bar."
         ),
-        hint=Hint(
-            "Relieve the ends: a profile with a larger drop, such as "
-            'contact.profile = {shape = "logarithmic"}, less tilt, or less load.'
+        hint=RELIEVE,
+    )
+
+
+def _pressed_at_end(level: Level) -> Status:
+    """Return ``converged`` with a warning: the largest pressure is that of a sharp end."""
+    pressure = level.film.p
+    row, column = np.unravel_index(int(pressure.argmax()), pressure.shape)
+    return Status(
+        kind="converged",
+        cause="largest_pressure_open",
+        message=(
+            f"The pressure is largest ({pressure[row, column]:.3g} p_h) at the sharp end "
+            f"Y = {level.grid.y[row]:.3g} of the roller, where it grows with each finer grid: it "
+            "has no limit, and no error bar."
         ),
+        hint=RELIEVE,
     )
 
 
