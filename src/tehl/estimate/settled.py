@@ -86,10 +86,10 @@ def crowds_at_ends(problem: ContactProblem) -> bool:
     """Return whether the lines of the grid crowd at the ends of a roller.
 
     The energy equation, heights, time steps and dynamics need uniform ones: only a film of flooded
-    oil alone, smooth, isothermal and steady has crowded ones.
+    oil alone, smooth, isothermal and steady has crowded ones; it may thin by shear.
     """
     others = (problem.supply, problem.cavitation, problem.dynamics, problem.asperities)
-    if any(one is not None for one in others) or problem.is_coupled:
+    if any(one is not None for one in (*others, problem.thermal)):
         return False
     return problem.contact.type == "roller" and _is_smooth(problem)
 

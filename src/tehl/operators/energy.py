@@ -186,7 +186,7 @@ class FilmState:
         along, across = mean_spin * y * slide_x * odd, (slide_y - mean_spin * x * slide_x) * odd
         found: Array = np.gradient(along, grid.dx, axis=1)
         if grid.ny > 1:
-            found += np.gradient(across, self.film.scaled.groups.ellipticity * grid.dy, axis=0)
+            found += np.gradient(across, y[:, 0], axis=0)
         return found
 
     def refine_from(self, coarse: "FilmState") -> None:
@@ -297,7 +297,8 @@ def _initial_fields(grid: Grid, film: HeatedFilm) -> Fields:
     nx, ny, heat = grid.nx, padded_rows(grid), film.heat
     whole = (nx + 2 * GHOSTS, heat.layers, ny + 2 * GHOSTS)
     temperature = np.empty(whole)
-    rows = grid.y[0] + grid.dy * np.arange(-GHOSTS, ny + GHOSTS)
+    rows = np.pad(places_across(grid, film.scaled.groups), GHOSTS, "reflect", reflect_type="odd")
+    rows /= film.scaled.groups.ellipticity
     across = heat.bulk_1 + (heat.bulk_2 - heat.bulk_1) * film.across.zeta
     colder = film.scaled.scales.temperature - across
     temperature[:] = across[:, None] + colder[:, None] * kept_part(film.scaled, -grid.x[0], rows)

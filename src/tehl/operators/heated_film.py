@@ -99,7 +99,9 @@ def places_across(grid: Grid, groups: Groups) -> Array:
     """
     if grid.ny == 1:
         return np.zeros(padded_rows(grid))
-    return groups.ellipticity * (grid.y[0] + grid.dy * np.arange(padded_rows(grid)))
+    y = groups.ellipticity * grid.y
+    beyond = np.arange(1.0, padded_rows(grid) - y.size + 1.0)
+    return np.concatenate([y, y[-1] + (y[-1] - y[-2]) * beyond])
 
 
 def stress_unit(scales: Scales) -> float:
