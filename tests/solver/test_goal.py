@@ -17,7 +17,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.io.templates import template_text
 from tehl.result.bars import ErrorEstimate
-from tehl.solver.judging.goal import MOST_SPARE, SPARE_PART, Goal
+from tehl.solver.judging.goal import FLOODED_PART, MOST_SPARE, SPARE_PART, Goal
 from tests.reference import heated_contact, moes_contact
 from tests.solver.rough import wavy
 
@@ -280,3 +280,14 @@ def test_a_minimum_as_accurate_as_the_central_film_gets_no_more_lines_alone(
     options = settled(scaled.problem, Options())
     level = Mock(grid=finest_grid(scaled, options.on_points(97, 97)))
     assert Goal(scaled, options).wants_lines(level, errors(0.008, minimum)) is more
+
+
+def test_a_flooded_film_to_which_a_supply_is_stated_has_the_goal_of_its_centre() -> None:
+    scaled = ScaledProblem.of(moes_contact(400.0, 1.0))
+    options = settled(scaled.problem, Options(error=0.01))
+    level = Mock(grid=finest_grid(scaled, options.on_points(97, 97)))
+    goal = Goal(scaled, options, of_central=True)
+    assert goal.is_met(errors(0.005, 0.025))
+    assert not goal.is_met(errors(0.0065, 0.001))
+    assert not goal.wants_lines(level, errors(0.005, 0.025))
+    assert goal.spare(errors(0.001, 0.025)) == pytest.approx(MOST_SPARE * FLOODED_PART * 0.01)

@@ -245,7 +245,7 @@ def _after_failure(
     )
 
 
-def try_strategies(
+def try_strategies(  # noqa: PLR0913 (one solve)
     problem: ContactProblem,
     options: Options,
     *,
@@ -253,6 +253,7 @@ def try_strategies(
     rough: bool,
     guess: Solution | None = None,
     flooded: Flooded | None = None,
+    of_central: bool = False,
 ) -> tuple[Attempt, Solution]:
     """Try the strategies; return the best attempt at the steady film and its result.
 
@@ -264,6 +265,8 @@ def try_strategies(
         Whether the surfaces have their roughness, at time zero; else they are smooth.
     flooded : Flooded or None
         The flooded contact; None computes it if oil is supplied.
+    of_central : bool
+        As in `Goal`.
     """
     warm_up(coupled=problem.is_coupled)
     options = settled(problem, options)
@@ -272,7 +275,7 @@ def try_strategies(
     scaled = ScaledProblem.of(problem)
     if flooded is not None:
         scaled = replace(scaled, flooded_oil=flooded.oil, flooded_error=flooded.error)
-    goal = Goal(scaled, options)
+    goal = Goal(scaled, options, of_central=of_central)
     plan = goal.fitting(planned(scaled, options))
     check_supply(scaled, domain_of(scaled, plan))
     check_memory(plan, problem)
@@ -318,7 +321,7 @@ def flooded_film(
     monitor.message("the fully flooded contact")
     same = problem.model_copy(update=changes)
     options = options.model_copy(update={"domain": "auto", "edges": "auto"})
-    attempt, result = try_strategies(same, options, monitor=SILENT, rough=False)
+    attempt, result = try_strategies(same, options, monitor=SILENT, rough=False, of_central=True)
     errors = result.errors
     is_known = attempt.reached and errors is not None and errors.central < FORMULA_ERROR
     if not (result.status.converged or is_known):
