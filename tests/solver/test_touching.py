@@ -372,3 +372,19 @@ def test_where_nothing_touches_steps_are_those_of_the_cycles():
     assert one.history.film_minimum == pytest.approx(other.history.film_minimum, rel=2e-4)
     assert one.history.pressure_max == pytest.approx(other.history.pressure_max, rel=2e-4)
     assert "needs no contact" in as_text(one)
+
+
+@pytest.mark.parametrize("kind", ["point", "line"])
+def test_oil_that_does_not_fill_the_boundary_film_carries_nothing(kind: str):
+    """The contact is the dry one, and what is known of the supply does not limit its film."""
+    tables = moes_contact(20.0, 2.0).model_dump(exclude_none=True) | {"supply": {"ratio": 0.3}}
+    radius = {"radius": 0.02} if kind == "line" else {"radius_x": 0.02, "radius_y": 0.02}
+    motion = {"moes_load": 20.0, "moes_speed": 2.0, "slide_roll_ratio": 0.5}
+    starved = ContactProblem.model_validate(tables | {"contact": {"type": kind} | radius | motion})
+    film = 0.5 * expected_central_film(ScaledProblem.of(starved).groups)
+    result = solve(through_film(starved, film), Options(points=65 if kind == "point" else 257))
+    assert result.pressure.max() == 0.0
+    assert result.touching.share == pytest.approx(1.0, abs=1e-2)
+    assert result.film_scaled.central == pytest.approx(film, rel=1e-9)
+    assert result.errors.supply == 0.0
+    assert "load" in as_text(result)

@@ -104,7 +104,7 @@ def rolling(
     .. math:: I = \int\!\!\int H \frac{dP}{dX} dX dY = -\int\!\!\int X P\, dX dY,
 
     which are equal as the deflection by P makes no moment. Sums by the trapezoidal rule; the ratio
-    is that on the grid.
+    is that on the grid, one if the oil has no pressure.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def rolling(
     moment = -np.trapezoid(x * pressure, x)
     on_grid = float((flow + film[:, 0] * pressure[:, 0]) @ widths)
     found = float(flow @ widths) + float(upstream.rolling @ widths)
-    return found, float(moment @ widths) / on_grid
+    return found, float(moment @ widths) / on_grid if on_grid else 1.0
 
 
 def upstream_of(grid: Grid, film: Array, oil: Array, groups: Groups) -> Beyond:

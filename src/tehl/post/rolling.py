@@ -58,7 +58,7 @@ def rolling_friction(result: Solution) -> Rolling | None:
         force=force,
         moment=arm,
         shift=arm / result.load,
-        tail_share=float(upstream.rolling @ widths) / flow,
+        tail_share=float(upstream.rolling @ widths) / flow if flow else 0.0,
         closure_error=ratio - 1.0,
         T=force / load * groups.W**-1.5,
     )

@@ -261,6 +261,8 @@ def solve_coarsest(hierarchy: Hierarchy, *, newton: bool) -> bool:
         single nodes go on changing.
     """
     coarsest, converged = hierarchy.levels[0], False
+    if not coarsest.film.p.any():  # a dry contact has no oil to solve for
+        return True
     if not (newton and coarsest.share.bounds_film):
         for _ in range(FIRST_STEPS):
             converged = hierarchy.coarsest.newton_step() < SMALL_STEP

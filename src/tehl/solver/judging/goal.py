@@ -20,6 +20,7 @@ from tehl.solver.cycle.continuation import Roughness
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.convergence import GridTrace
+from tehl.solver.judging.film_summary import central_value
 from tehl.solver.judging.grid_errors import error_estimate, single_grid_estimate
 from tehl.solver.judging.measures import is_pressed_at_end, is_thinnest_at_end
 
@@ -71,10 +72,12 @@ def estimated_errors(
     bars, at_end = found.bars, is_pressed_at_end(level)
     if at_end:
         bars = {name: bar for name, bar in bars.items() if name != "pressure_max"}
+    # a boundary film in the middle does not depend on the oil that enters
+    meets = central_value(level.grid, level.share.meets(level).astype(float))
     return replace(
         found,
         bars=bars,
-        supply=supply_error(hierarchy.scaled),
+        supply=max(1.0 - meets, 0.0) * supply_error(hierarchy.scaled),
         minimum_has_limit=not is_thinnest_at_end(level),
         pressure_has_limit=not at_end,
     )
@@ -259,7 +262,7 @@ class Goal:
         now, limit = time.perf_counter(), self.options.max_time
         expected = FACTOR * (now - self._last)
         needed = needed_memory(self.options.on_points(nx, ny), self.scaled.problem)
-        available, supply = memory_limit(self.options), supply_error(self.scaled)
+        available, supply = memory_limit(self.options), errors.supply if errors else 0.0
         self.obstacle = ""
         if errors is not None and errors.domain > self.target:
             cause = "the domain, upstream of which the oil warms or cools"
@@ -268,7 +271,7 @@ class Goal:
             if isinstance(self.options.domain, Domain):
                 cause = "numerics.domain"
             self.obstacle = f"{percentage(errors.domain)} are due to {cause}"
-        elif supply > self.target and errors is not None and errors.central < 2.0 * supply:
+        elif errors is not None and supply > self.target and errors.central < 2.0 * supply:
             self.obstacle = (
                 f"{percentage(supply)} are due to the flooded film, of which supply.ratio is a part"
             )

@@ -88,7 +88,8 @@ def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
             found[name] = mid_film_traction(level, scaled, state, part=part)
             wet = mid_film_stress(level, scaled, state, part) * wet_part(level.film.p)
             inside = level.equations.load.integral(wet * zone_of(level.grid, scaled.groups.skew))
-            found[f"{name}_tail"] = abs(beside(level.grid, wet, scaled.groups.skew) / inside)
+            if inside:  # not if all oil is cavitated
+                found[f"{name}_tail"] = abs(beside(level.grid, wet, scaled.groups.skew) / inside)
     return found
 
 
@@ -110,7 +111,7 @@ def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
     found = rolling(grid.x, film.p, film.h, upstream, grid.widths)[0]
     error = TAIL_ERROR if level.far_field is not None else TAIL_OF_ZERO_EDGE
     tail = float(upstream.rolling @ grid.widths)
-    return {"rolling": found, "rolling_tail": error * abs(tail / found)}
+    return {"rolling": found, "rolling_tail": error * abs(tail / found) if found else 0.0}
 
 
 def film_numbers(level: Level) -> dict[str, float]:

@@ -445,8 +445,14 @@ class BoundaryContact(OilAlone):
         return self.beneath.changed(coarse)
 
     def start(self, level: Carried, expected_film: float) -> None:
-        """Start as without contact."""
-        self.beneath.start(level, expected_film)
+        """Start as without contact, or dry where the oil that enters fills no boundary film."""
+        grid, layer = self.equations.grid, self.equations.layer
+        if layer is None or layer.max() > self.least:
+            self.beneath.start(level, expected_film)
+            return
+        level.set_state(np.zeros(grid.shape), 0.0, dry_pressure(grid, self.equations.groups))
+        level.update()
+        level.move(self.nearest - central_value(grid, level.separation))
 
 
 def share_of(equations: Equations) -> OilAlone:
