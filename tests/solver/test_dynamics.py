@@ -15,6 +15,7 @@ from tehl.cli.text import as_text
 from tehl.contact.options import Domain, Options
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem, scales
+from tehl.io.export import export
 from tehl.io.store import save
 from tehl.operators.flow import flow_table
 from tehl.plots.dynamics import dynamics_curves
@@ -331,6 +332,11 @@ def test_results_keep_and_show_stiffness_and_damping(swept: Result, tmp_path):
     assert len(again.summary()["dynamics"]["over_frequency"]) == swept.dynamics.frequency.size
     assert "  dynamics  " in as_text(again)
     assert dynamics_curves(again).axes
+    export(again, tmp_path / "a.csv", what="dynamics")
+    columns = np.genfromtxt(tmp_path / "a.csv", delimiter=",", names=True)
+    assert columns["frequency_hz"].tolist() == swept.dynamics.frequency.tolist()
+    assert columns["damping_n_s_per_m"].tolist() == swept.dynamics.damping.tolist()
+    assert len(columns.dtype.names or ()) == 12
 
 
 @pytest.mark.parametrize(
@@ -415,3 +421,13 @@ def test_without_entrainment_a_stiff_film_damps_as_a_sphere_near_a_plane():
     )
     exact = 0.5 * np.pi * scaled.groups.lambda_bar / gap
     assert (4.0 * far - near) / 3.0 == pytest.approx(exact, rel=0.01)
+
+
+def test_directions_of_the_steady_film_serve_at_each_frequency():
+    """(A - i Omega B) u is its triangular parts times orthonormal rows."""
+    random = np.random.default_rng(1)
+    steps, stored = random.normal(size=(2, 5, 40))
+    steady = np.linalg.qr(random.normal(size=(40, 5)))[0].T
+    parts, images = response.Still(steps, steady, stored).at(3.0)
+    assert images.conj() @ images.T == pytest.approx(np.eye(5), abs=1e-12)
+    assert parts.T @ images == pytest.approx(steady - 3.0j * stored, abs=1e-12)

@@ -32,7 +32,7 @@ else:
 
 Format = StrEnum("Format", ["csv", "vtk", "npz", "mat"])
 Image = StrEnum("Image", ["png", "pdf", "svg"])
-What = StrEnum("What", ["lines", "fields", "history", "depths", "section"])
+What = StrEnum("What", ["lines", "fields", "history", "depths", "section", "dynamics"])
 
 
 def _pictures(ctx: Context, incomplete: str) -> list[str]:
@@ -155,7 +155,8 @@ def export(
         What | None,
         Option(
             help="csv only: centre lines (default), fields at all nodes, the history of the cycles "
-            "or time steps (default of a transient result), stresses over depth or on y = 0."
+            "or time steps (default of a transient result), stresses over depth or on y = 0, "
+            "or stiffness and damping over frequency."
         ),
     ] = None,
 ) -> None:

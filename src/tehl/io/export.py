@@ -34,6 +34,7 @@ _ROWS = {
         "history": ("cycle",),
         "depths": ("body", "depth"),
         "section": ("body", "depth", "stress_x"),
+        "dynamics": ("frequency",),
     },
     TransientSolution: {
         "history": ("time",),
@@ -42,7 +43,10 @@ _ROWS = {
     },
 }
 """Dimensions over which a CSV table has its rows; the first of each kind is the default."""
-_SUFFIXES = {"m": "_m", "s": "_s", "Pa": "_pa", "K": "_k", "W/m^2": "_w_m2", "1": ""}
+_SUFFIXES = {
+    **{"m": "_m", "s": "_s", "Pa": "_pa", "K": "_k", "W/m^2": "_w_m2", "1": "", "Hz": "_hz"},
+    **{"N/m": "_n_per_m", "N s/m": "_n_s_per_m", "N s^2/m": "_n_s2_per_m"},
+}
 """Endings of column names by unit."""
 
 
@@ -56,7 +60,8 @@ def export(
     the grid lines nearest to the axes: first those with ``line = x`` (along entrainment, Y = 0),
     then ``line = y`` (across, X = 0); ``"fields"`` are all nodes, x running fastest, and
     ``"history"`` the multigrid cycles; ``"depths"`` has the largest stresses at each depth below
-    the surfaces, ``"section"`` their components on y = 0. Of a transient result ``"history"`` has a
+    the surfaces, ``"section"`` their components on y = 0, and ``"dynamics"`` stiffness, damping and
+    cross terms over frequency. Of a transient result ``"history"`` has a
     row per step, ``"lines"`` the nodes of the line y = 0 at each step, and ``"fields"`` all nodes
     of each frame.
 
@@ -79,7 +84,7 @@ def export(
         The file; existing files are replaced.
     to : {"csv", "npz", "vtk", "mat"}, optional
         Format; by default that of the ending of ``path``.
-    what : {"lines", "fields", "history", "depths", "section"}, optional
+    what : {"lines", "fields", "history", "depths", "section", "dynamics"}, optional
         Rows of a CSV table; lines of a steady result and the history of a transient one by default.
 
     Returns

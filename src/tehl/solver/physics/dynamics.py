@@ -212,17 +212,18 @@ def changes(
         inverses = CloseInverses(system)
         still = Directions(system, 0.0, inverses.at(0.0))
         static = [still.solve(steady, 0.0 * every, STATIC_RESIDUAL) for steady, _ in sources]
-        spaces = [
-            Solutions(system, source[1] + system.parts(one)[1])
-            for source, one in zip(sources, static, strict=True)
-        ]
+        known = still.still()
+        space = Solutions(
+            system,
+            [source[1] + system.parts(one)[1] for source, one in zip(sources, static, strict=True)],
+        )
         for place in _ends_first(omegas.size):
             omega, directions = omegas[place], still if omegas[place] == 0.0 else None
-            for number, (one, space) in enumerate(zip(static, spaces, strict=True)):
-                late, is_close = space.start(omega)
+            for number, one in enumerate(static):
+                late, is_close = space.start(number, omega)
                 if not is_close:
-                    directions = directions or Directions(system, omega, inverses.at(omega))
-                    late = space.at(directions, late)
+                    directions = directions or Directions(system, omega, inverses.at(omega), known)
+                    late = space.at(number, directions, late)
                 now, ahead = _forces(system, one, moved[number]), _forces(system, late, 0.0)
                 now[0] += outside[number][0]
                 ahead[0] += outside[number][1]

@@ -18,7 +18,7 @@ frequencies: solutions at some of them span a space in which those at the others
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import solve_triangular
+from scipy.linalg import cholesky, solve_triangular
 from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import splu
 
@@ -259,18 +259,48 @@ class CloseInverses:
         return self.known[-1]
 
 
+class Still(NamedTuple):
+    """Steps of a steady film, with orthonormal images A u, and B u, (m, n) each."""
+
+    steps: Array
+    steady: Array
+    stored: Array
+
+    def at(self, omega: float) -> tuple[Array, Array]:
+        """Return (A - i omega B) u as triangular parts of orthonormal rows, and those rows."""
+        images = self.steady - 1j * omega * self.stored
+        parts = cholesky(images.conj() @ images.T)
+        return parts, solve_triangular(parts, images, trans="T")
+
+
 class Directions:
     """Search directions at one frequency, and their orthonormal images: they serve all sources.
 
     Eisenstat, Elman and Schultz 1983, SIAM J. Numer. Anal. 20, 345 (generalised conjugate
     residuals). The image of step j is the sum of the images up to j times column j of ``parts``.
+    Those that a steady film has taken lessen the number at each frequency by a third: smooth
+    pressures, whose deflection the approximate inverse does not hold.
     """
 
-    def __init__(self, system: FilmResponse, omega: float, close: CloseInverse) -> None:
+    def __init__(
+        self, system: FilmResponse, omega: float, close: CloseInverse, still: Still | None = None
+    ) -> None:
         self.system, self.omega, self.close = system, omega, close
         size, kind = (MOST_DIRECTIONS, system.unknown.size), complex if omega else float
-        self.number, self.steps, self.images = 0, np.empty(size, kind), np.empty(size, kind)
-        self.parts = np.zeros((MOST_DIRECTIONS, MOST_DIRECTIONS), kind)
+        self.number, self.parts = 0, np.zeros(2 * (MOST_DIRECTIONS,), kind)
+        self.steps, self.images = np.empty(size, kind), np.empty(size, kind)
+        if still is not None:
+            self.number = len(still.steps)
+            known = np.s_[: self.number]
+            self.steps[known] = still.steps
+            self.parts[known, known], self.images[known] = still.at(omega)
+
+    def still(self) -> Still:
+        """Return the directions of the steady film, for those at other frequencies."""
+        known = np.s_[: self.number]
+        steps = solve_triangular(self.parts[known, known], self.steps[known], trans="T")
+        stored = np.array([self.system.parts(one)[1] for one in steps])
+        return Still(steps, self.images[known], stored)
 
     def solve(self, source: Array, start: Array, residual: float) -> Array:
         """Return the solution of (A - i Omega B) u = source.
@@ -319,21 +349,24 @@ class Directions:
 
 
 class Solutions:
-    """Solutions of (A - i Omega B) R = source at some frequencies, as a space for the others."""
+    """Solutions of (A - i Omega B) R = source at some frequencies, as a space for the others.
 
-    def __init__(self, system: FilmResponse, source: Array) -> None:
-        self.system, self.source = system, source
-        self.vectors, self.steady, self.stored = (np.zeros((0, source.size)) for _ in range(3))
-        self.products, self.along = np.zeros((0, 0)), np.zeros(0)
+    Those of one source serve the others too.
+    """
 
-    def start(self, omega: float) -> tuple[Array, bool]:
-        """Return the best solution of the space, and whether it has the `RESPONSE_RESIDUAL`."""
-        start, error = self._within(omega)
+    def __init__(self, system: FilmResponse, sources: list[Array]) -> None:
+        self.system, self.sources = system, np.array(sources)
+        self.vectors = self.images = np.zeros((0, system.unknown.size))  # an image by A, one by B
+        self.products, self.along = np.zeros((0, 0)), np.zeros((0, len(sources)))
+
+    def start(self, number: int, omega: float) -> tuple[Array, bool]:
+        """Return the best of the space for a source, and if it has the `RESPONSE_RESIDUAL`."""
+        start, error = self._within(number, omega)
         return start, error <= RESPONSE_RESIDUAL
 
-    def at(self, directions: Directions, start: Array) -> Array:
+    def at(self, number: int, directions: Directions, start: Array) -> Array:
         """Return the solution at the frequency of ``directions``, which joins the space."""
-        found = directions.solve(self.source, start, RESPONSE_RESIDUAL)
+        found = directions.solve(self.sources[number], start, RESPONSE_RESIDUAL)
         for part in (found.real, found.imag) if directions.omega else (found,):
             self._join(np.where(self.system.unknown, part, 0.0))
         return found
@@ -342,30 +375,28 @@ class Solutions:
         for _ in range(2):  # twice is enough
             vector = vector - self.vectors.T @ (self.vectors @ vector)
         vector = vector / np.linalg.norm(vector)
-        new = (vector, *self.system.parts(vector))
-        self.vectors, self.steady, self.stored = (
-            np.vstack([known, row])
-            for known, row in zip((self.vectors, self.steady, self.stored), new, strict=True)
-        )
-        images = np.vstack([self.steady, self.stored])
-        self.products, self.along = images @ images.T, images @ self.source
+        new = np.array(self.system.parts(vector))
+        with_others = self.images @ new.T
+        self.products = np.block([[self.products, with_others], [with_others.T, new @ new.T]])
+        self.along = np.vstack([self.along, new @ self.sources.T])
+        self.vectors = np.vstack([self.vectors, vector])
+        self.images = np.vstack([self.images, new])
 
-    def _within(self, omega: float) -> tuple[Array, float]:
+    def _within(self, number: int, omega: float) -> tuple[Array, float]:
         """Return the vector of the space with the least residual, and that residual, relative."""
-        number = len(self.vectors)
-        if not number:
-            return np.zeros(self.source.size, complex if omega else float), np.inf
-        # the images are S - i Omega T
-        turn = np.vstack([np.eye(number), (-1j * omega if omega else 0.0) * np.eye(number)])
+        source, size = self.sources[number], len(self.vectors)
+        if not size:
+            return np.zeros(source.size, complex if omega else float), np.inf
+        one = np.array([[1.0], [-1j * omega if omega else 0.0]])
+        turn = np.kron(np.eye(size), one)
         turned = turn.conj().T
         solved = np.linalg.lstsq(
-            turned @ self.products @ turn, turned @ self.along, rcond=DEPENDENT
+            turned @ self.products @ turn, turned @ self.along[:, number], rcond=DEPENDENT
         )
         weights = np.asarray(solved[0])
-        found = _combined(weights, self.vectors)
-        steady, stored = _combined(weights, self.steady), _combined(weights, self.stored)
-        rest = self.source - (steady - 1j * omega * stored if omega else steady)
-        return found, float(np.linalg.norm(rest) / np.linalg.norm(self.source))
+        rest = source - _combined(turn @ weights, self.images)
+        error = float(np.linalg.norm(rest) / np.linalg.norm(source))
+        return _combined(weights, self.vectors), error
 
 
 def _combined(weights: Array, rows: Array) -> Array:
