@@ -11,7 +11,7 @@ from tehl.contact.options import Options
 from tehl.estimate import film_formulas
 from tehl.estimate.scaling import ScaledProblem
 from tehl.solver.cycle import level
-from tehl.solver.physics import share
+from tehl.solver.physics import solid_shares
 from tests.reference import moes_contact
 
 PAGES = Path(__file__).parents[2] / "docs" / "dev"
@@ -26,8 +26,8 @@ def added(page: str, file: str) -> str:
 
 
 def test_the_share_of_the_page_carries_load_beside_the_oil(monkeypatch):
-    names = dict(vars(share))
-    exec(added("adding-a-share.md", "src/tehl/solver/physics/share.py"), names)
+    names = dict(vars(solid_shares))
+    exec(added("adding-a-share.md", "src/tehl/solver/physics/solid_shares.py"), names)
     problem, options = moes_contact(50.0, 5.0), Options(points=65)
     alone, found = solve(problem, options), []
     for stiffness in (0.0, 0.5):

@@ -21,7 +21,7 @@ from tehl.solver.cycle.start import from_dry_pressure
 from tehl.solver.judging.convergence import DivergedError
 from tehl.solver.physics.boundary_contact import choose_orders, oil_step
 from tehl.solver.physics.boundary_cycle import TouchingCycle
-from tehl.solver.physics.share import contact_of
+from tehl.solver.physics.solid_shares import contact_of
 from tests.reference import moes_contact
 from tests.solver.rough import wavy
 from tests.solver.test_touching import through_film

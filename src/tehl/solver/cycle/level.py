@@ -14,7 +14,7 @@ from tehl.operators.far_field import Edges
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Relaxation, make_smoother
 from tehl.solver.physics.cavity import cavity_of
-from tehl.solver.physics.share import share_of
+from tehl.solver.physics.solid_shares import share_of
 
 
 class Level:

@@ -29,7 +29,7 @@ from tehl.solver.physics.boundary_system import (
     transport,
 )
 from tehl.solver.physics.cavity import set_orders
-from tehl.solver.physics.share import contact_of
+from tehl.solver.physics.solid_shares import contact_of
 
 SUFFICIENT_DECREASE, SHORTEST_CONTACT_STEP = 0.05, 0.12
 """Least relative decrease of the residual for the whole step, and shortest part of a step, which is

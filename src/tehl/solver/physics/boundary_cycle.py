@@ -34,7 +34,8 @@ from tehl.solver.physics.boundary_contact import (
     oil_step,
 )
 from tehl.solver.physics.boundary_system import OPENING
-from tehl.solver.physics.share import Response, contact_of
+from tehl.solver.physics.share import Response
+from tehl.solver.physics.solid_shares import contact_of
 
 FIXED_FILM = Relaxation(name="fixed film", threshold=0.0, point=1.0, dipole=0.0, stiff=True)
 """Stiff: with the conductance frozen, oil beside a patch under high pressure creeps for tens of

@@ -27,7 +27,7 @@ from tehl.operators.jacobian import Neighbours, flux_difference, jacobian, neigh
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.linearised import conductance_slopes
 from tehl.solver.cycle.newton import ROUNDS, VECTORS, Newton
-from tehl.solver.physics.share import contact_of
+from tehl.solver.physics.solid_shares import contact_of
 
 LARGEST_STEPS, FAR_RESIDUAL = (5.0, 1.0), 0.1
 """Largest change of the pressure of oil per step, in Hertz pressures, and residual above which the

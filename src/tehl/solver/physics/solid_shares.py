@@ -1,0 +1,289 @@
+"""Solids that carry load beside the oil: asperities finer than the grid, contact on the grid.
+
+A boundary contact lies over another share: where the surfaces touch, the summits below the grid
+keep the pressure that they have at the boundary film.
+"""
+
+import numpy as np
+
+from tehl.base.typing import Array, BoolArray, FlagArray
+from tehl.contact.boundary_contact import TOUCHING_MARGIN
+from tehl.kernels import summits
+from tehl.kernels.properties import Film
+from tehl.operators.dry import dry_pressure
+from tehl.operators.summits import AsperityTable
+from tehl.solver.cycle.equations import Equations
+from tehl.solver.judging.film_summary import central_value
+from tehl.solver.physics.share import Carried, OilAlone
+
+FILM_PER_PRESSURE = 1.5
+"""Film of a smooth change of the pressure in the contact, over that change and over the approach of
+the dry contact, which is one in a circle [-]: 4/pi in the middle of a uniform one, and somewhat
+more, as too little only takes longer."""
+LARGEST_SHARE_FROM_HERTZ = 0.1
+"""Share of the load by formula up to which cycles start from the Hertz pressure. Ten contacts of
+shares 1e-9 to 0.04 converge from it and not from the dry contact; one of share 1 takes 27 cycles
+from the dry contact and 50 from that of Hertz."""
+DRY_STEPS, DRY_PART, DRY_ERROR = 100, 0.5, 1e-4
+"""Most steps to a dry contact; change of the rigid approach over the missing part of the load; and
+that part and the change of a pressure that end them: it is only a start."""
+
+
+class Summits(OilAlone):
+    """Asperities finer than the grid: oil and they share the pressure at each node.
+
+    Parameters
+    ----------
+    equations : Equations
+        Of the level.
+    table : AsperityTable
+        Their laws over the separation.
+    """
+
+    is_steep, combines, lowest = True, True, -np.inf
+
+    def __init__(self, equations: Equations, table: AsperityTable) -> None:
+        super().__init__(equations)
+        self.table = table
+        self.reach = FILM_PER_PRESSURE * max(1.0, self._pressed()[1])
+        self.kept = np.zeros(equations.grid.shape)  # what they carried in the injected state
+
+    def extend(self, film: Film) -> Film:
+        """Return the film with the fields of `tehl.kernels.summits.touch`."""
+        shape = film.p.shape
+        q, s, opening, channel = (np.zeros(shape) for _ in range(4))
+        film = film._replace(asperity=q, stiffness=s, opening=opening, channel=channel)
+        if self.table.is_anisotropic:
+            film = film._replace(across=np.ones(shape), eps_y=np.zeros(shape))
+        return film._replace(carried=np.ones(shape)) if self.table.slides else film
+
+    def follow(self, level: Carried, reach: float) -> None:
+        """Evaluate the laws; the sum of both pressures stays."""
+        self.follow_at(level, reach, level.separation, level.smoother.frozen)
+
+    def follow_at(self, level: Carried, reach: float, separation: Array, frozen: FlagArray) -> None:
+        """Evaluate the laws at a separation; the oil of the ``frozen`` nodes stays as well."""
+        flow = self.equations.flow
+        summits.touch(level.film, separation, self.table.laws, flow, frozen, reach)
+        if level.factors is not None:
+            level.update_properties()
+
+    def parts(self, level: Carried) -> dict[str, float]:
+        """Return the part of the load on asperities [-]."""
+        carried = self.equations.load.integral(level.film.asperity)
+        return {"load_share": carried / level.sources.load}
+
+    def rubbing(self, level: Carried) -> tuple[Array, Array] | None:
+        """Return the friction stress of the asperities; the oil between them is sheared too."""
+        film = level.film
+        return self.table.friction * film.asperity, np.ones(film.p.shape)
+
+    def widening(self, level: Carried) -> Array:
+        """Return d eps/dH by the law of the channel."""
+        film = level.film
+        found: Array = 3.0 * film.eps * self.table.widening(level.separation) / film.channel
+        return found
+
+    def receive(self, level: Carried) -> None:
+        """Evaluate the injected separation, and note what the asperities carry there."""
+        self.follow(level, -1.0)
+        self.kept = level.film.asperity.copy()
+
+    def changed(self, coarse: Carried) -> Array:
+        """Return the pressure with the change of both: it is smooth."""
+        return coarse.film.p + coarse.film.asperity - self.kept
+
+    def start(self, level: Carried, expected_film: float) -> None:
+        """Start at the separation of the expected film.
+
+        Where asperities carry much there, from the pressure of the dry contact. Soft ones would be
+        pressed far into each other in it.
+        """
+        middle = self.table.separation(expected_film)
+        level.set_state(dry_pressure(self.equations.grid, self.equations.groups), 0.0, 0.0)
+        if self.table.pressure(middle) <= LARGEST_SHARE_FROM_HERTZ:
+            level.update()
+        else:
+            self._press_dry(level)
+            level.set_state(level.film.asperity, level.rigid_approach, 0.0)
+        level.move(middle - central_value(self.equations.grid, level.separation))
+
+    def _pressed(self) -> tuple[Array, float]:
+        """Return the Hertz pressure, ``grid.shape``, and the approach under it [-]."""
+        equations = self.equations
+        pressure = dry_pressure(equations.grid, equations.groups)
+        deflection = np.empty_like(pressure)
+        equations.deformation.deflect(pressure, deflection)
+        return pressure, central_value(equations.grid, deflection)
+
+    def _press_dry(self, level: Carried) -> None:
+        """Let dry asperities carry the load, from the Hertz pressure on.
+
+        Where oil is cavitated they follow their law; the rigid approach follows the load, which
+        grows as its power 3/2 (Hertz).
+        """
+        pressure, approach = self._pressed()
+        level.set_state(np.zeros_like(pressure), -approach, pressure)
+        missing, solids = -level.load_error(), level.film.asperity
+        for _ in range(DRY_STEPS):
+            before = solids.copy()
+            level.move(-DRY_PART * min(max(missing, -1.0), 1.0))
+            level.update()
+            missing = -level.load_error()
+            if max(abs(missing), float(np.abs(solids - before).max())) <= DRY_ERROR:
+                return
+
+
+class BoundaryContact(OilAlone):
+    """Surfaces that touch where the film is that of the boundary.
+
+    Which nodes touch follows from the sign of P_c - (H - H_c)/K_00 (primal-dual active set:
+    Hintermüller, Ito and Kunisch 2002).
+
+    Parameters
+    ----------
+    equations : Equations
+        Of the level.
+    least : float
+        Boundary film H_c [-].
+    beneath : OilAlone
+        The share where the surfaces are apart.
+    """
+
+    bounds_film, by_flux = True, True
+    largest_part = 1.0  # a boundary film may be thicker than any that the oil would form
+
+    def __init__(self, equations: Equations, least: float, beneath: OilAlone) -> None:
+        super().__init__(equations)
+        shape, self.beneath, self.least = equations.grid.shape, beneath, least
+        self.nearest, self.carried = least, 0.0  # separation and pressure of summits at H_c
+        if isinstance(beneath, Summits):
+            self.nearest = beneath.table.separation(least)
+            self.carried = beneath.table.pressure(self.nearest)
+        self.is_steep, self.lowest = beneath.is_steep, beneath.lowest
+        self.combines, self.reach = beneath.combines, beneath.reach
+        self.touching, self.lowered = np.zeros(shape, bool), np.zeros(shape, bool)
+        self.held = np.zeros(shape)
+
+    def extend(self, film: Film) -> Film:
+        """Return the film with the pressure of the solids and the orders of the fluxes."""
+        film, shape = self.beneath.extend(film), film.p.shape
+        if not film.partial.size:
+            partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
+            film = film._replace(partial=partial, second=second)
+        return film if film.asperity.size else film._replace(asperity=np.zeros(shape))
+
+    def lower(self, film: Film) -> None:
+        """Lower the orders to second, and to first where surfaces touch."""
+        np.minimum(film.second, 1, out=film.second)
+        film.second[self.lowered] = 0
+
+    def receive(self, level: Carried) -> None:
+        """Evaluate the injected separation; the contact pressure is in the source of the film."""
+        self.stays, level.film.asperity[:] = True, 0.0
+        self.follow(level, -1.0)
+        if isinstance(self.beneath, Summits):
+            self.beneath.kept = level.film.asperity.copy()
+
+    def follow(self, level: Carried, reach: float) -> None:
+        """Find the nodes that touch, and evaluate the film, there the boundary film."""
+        self.held[:] = level.separation
+        if not self.stays:
+            self._find(level)
+            np.maximum(level.separation, self.nearest, out=self.held)
+        touching = self.touching if level.is_finest else np.zeros_like(self.touching)
+        self.held[touching] = self.nearest
+        if not isinstance(self.beneath, Summits):
+            level.film.h[:] = self.held
+            level.update_properties()
+            return
+        film = level.film
+        before = film.asperity[touching]
+        frozen = (level.smoother.frozen.astype(bool) | touching).astype(np.uint8)
+        self.beneath.follow_at(level, reach, self.held, frozen)
+        film.asperity[touching] = before
+
+    def _find(self, level: Carried) -> None:
+        inner = self.equations.grid.inner
+        gap = (level.separation - self.nearest) / self.equations.influence.self_film
+        self.touching[inner] = (level.film.asperity - self.carried > gap)[inner]
+
+    def gap(self, level: Carried) -> Array:
+        """Return the separation, that of the boundary film where the surfaces touch."""
+        del level
+        return self.held
+
+    def error(self, level: Carried) -> float:
+        """Return the mean error of H = H_c where the surfaces touch, as a pressure [-]."""
+        errors = np.where(self.touching, np.abs(level.separation - self.nearest), 0.0)
+        return float(errors.mean()) / self.equations.influence.self_film
+
+    def opened(self, level: Carried) -> Array:
+        """Return the change by which nodes that do not touch lose their contact pressure [-]."""
+        lost = level.film.asperity - self.carried
+        if isinstance(self.beneath, Summits):  # apart from the boundary film summits carry less
+            lost = np.maximum(lost, 0.0)
+        return np.where(self.touching, 0.0, -lost)
+
+    def freeze(self, frozen: FlagArray) -> None:
+        """Keep the oil pressure of the nodes that touch."""
+        frozen[self.touching] = 1
+
+    def meets(self, level: Carried) -> BoolArray:
+        """Return the nodes that count as touching: all whose film exceeds H_c by a margin or less.
+
+        How much of the pressure there is that of the oil depends on how it was trapped
+        (docs/theory/contact.md, shares).
+        """
+        if not (level.film.asperity > self.carried).any():  # the oil carries all
+            return np.zeros(level.film.p.shape, bool)
+        return np.asarray(level.film.h <= (1.0 + TOUCHING_MARGIN) * self.least)
+
+    def parts(self, level: Carried) -> dict[str, float]:
+        """Return the parts of the load where the surfaces touch, and on asperities elsewhere."""
+        load, (film, meets) = self.equations.load, (level.film, self.meets(level))
+        touching = load.integral(np.where(meets, film.p + film.asperity, 0.0))
+        found = {"contact_share": touching / level.sources.load}
+        if isinstance(self.beneath, Summits):
+            apart = load.integral(np.where(meets, 0.0, film.asperity))
+            found["load_share"] = apart / level.sources.load
+        return found
+
+    def rubbing(self, level: Carried) -> tuple[Array, Array] | None:
+        """Return the friction stress where the surfaces touch, in place of that of the oil."""
+        film, meets = level.film, self.meets(level)
+        apart = self.beneath.rubbing(level)
+        elsewhere = np.zeros(film.p.shape) if apart is None else apart[0]
+        stress = np.where(meets, self.equations.friction * (film.p + film.asperity), elsewhere)
+        return stress, np.where(meets, 0.0, 1.0)
+
+    def widening(self, level: Carried) -> Array:
+        """Return d eps/dH where the surfaces are apart."""
+        return self.beneath.widening(level)
+
+    def changed(self, coarse: Carried) -> Array:
+        """Return the pressure whose change a finer grid takes."""
+        return self.beneath.changed(coarse)
+
+    def start(self, level: Carried, expected_film: float) -> None:
+        """Start as without contact, or dry where the oil that enters fills no boundary film."""
+        grid, layer = self.equations.grid, self.equations.layer
+        if layer is None or layer.max() > self.least:
+            self.beneath.start(level, expected_film)
+            return
+        level.set_state(np.zeros(grid.shape), 0.0, dry_pressure(grid, self.equations.groups))
+        level.update()
+        level.move(self.nearest - central_value(grid, level.separation))
+
+
+def share_of(equations: Equations) -> OilAlone:
+    """Return the share of a level by its equations."""
+    table, least = equations.asperities, equations.contact_film
+    beneath = OilAlone(equations) if table is None else Summits(equations, table)
+    return beneath if least is None else BoundaryContact(equations, least, beneath)
+
+
+def contact_of(share: OilAlone) -> BoundaryContact:
+    """Return the share of a level whose surfaces may touch through a boundary film."""
+    assert isinstance(share, BoundaryContact)
+    return share
