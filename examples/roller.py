@@ -19,7 +19,7 @@ import tehl
 TILTS = (0.0, 1e-3)
 
 
-def roller(tilt: float) -> tehl.Result:
+def roller(tilt: float, points: tuple[int, int]) -> tehl.Result:
     """Return the film of a roller of 10 mm under 5 kN with a tilt [rad]."""
     problem = tehl.ContactProblem(
         contact={
@@ -35,12 +35,12 @@ def roller(tilt: float) -> tehl.Result:
         surface_2={"material": "steel"},
         lubricant="mineral-oil",
     )
-    return tehl.solve(problem, tehl.Options(points=(257, 129)))
+    return tehl.solve(problem, tehl.Options(points=points))
 
 
-def main() -> dict[float, tehl.Result]:
+def main(points: tuple[int, int] = (257, 129)) -> dict[float, tehl.Result]:
     """Return the films over the tilt."""
-    found = {tilt: roller(tilt) for tilt in TILTS}
+    found = {tilt: roller(tilt, points) for tilt in TILTS}
     for tilt, result in found.items():
         load = result.pressure.sum(axis=1)
         half = load.size // 2

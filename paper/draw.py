@@ -63,9 +63,10 @@ def draw(figure: Figure, runs: Runs, folder: Path) -> None:
     grids = " and ".join(dict.fromkeys(panels.grid))
     fixed = f"{runs.series[figure.series].fixed}, {grids} nodes"
     picture.suptitle(f"{figure.label}.  {figure.title}\n{fixed}")
-    FigureCanvasAgg(picture)
-    for kind in ("png", "pdf"):
-        picture.savefig(folder / f"{figure.name}.{kind}", dpi=DPI)
+    picture.set_dpi(DPI)
+    FigureCanvasAgg(picture).print_png(folder / f"{figure.name}.png")
+    picture.set_layout_engine("none")  # which stays as it is
+    picture.savefig(folder / f"{figure.name}.pdf", dpi=DPI)
 
 
 def _sheet(figure: Figure, runs: Runs, panels: pd.DataFrame) -> Any:

@@ -97,7 +97,7 @@ def reproduce(
     outcome = run(runs.cases, runs.store, jobs=jobs, **options)
     (folder / "figures").mkdir(parents=True, exist_ok=True)
     figures = [name for name in chosen if name in FIGURES]
-    _draw(folder, figures, points, jobs)
+    _draw(figures, runs, folder, points, jobs)
     report = Report(
         runs,
         [make_table(name, runs) for name in chosen if name in SERIES_OF],
@@ -118,15 +118,27 @@ def _check(points: int) -> None:
         raise InputError(f"--points {points}: {why}") from None
 
 
-def _draw(folder: Path, names: list[str], points: int | None, jobs: int) -> None:
-    """Draw figures, in processes of their own if there are several jobs."""
-    tasks = (names, repeat(folder), repeat(points))
+def _draw(names: list[str], runs: Runs, folder: Path, points: int | None, jobs: int) -> None:
+    """Draw figures, in processes of their own if there are several jobs.
+
+    Parameters
+    ----------
+    names : list of str
+        Which.
+    runs : Runs
+        Those of all figures.
+    folder : Path
+        Of the reproduction.
+    points, jobs : int or None, int
+        As in `reproduce`.
+    """
     if min(jobs, len(names)) <= 1:
-        list(map(_draw_figure, *tasks))
+        for name in names:
+            draw(FIGURES[name], runs, folder / "figures")
         return
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(min(jobs, len(names)), mp_context=context) as pool:
-        list(pool.map(_draw_figure, *tasks))
+        list(pool.map(_draw_figure, names, repeat(folder), repeat(points)))
 
 
 def _draw_figure(name: str, folder: Path, points: int | None) -> None:

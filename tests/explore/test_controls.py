@@ -19,8 +19,7 @@ def controls_of(name):
 
 
 def choose(case, choice, option):
-    for path, value in choice.options[option][1].items():
-        case.set(path, value)
+    case.update(choice.options[option][1])
 
 
 def fault_of(case):

@@ -96,31 +96,40 @@ class CaseText:
         return node
 
     def set(self, path: str, value: Any) -> None:
-        """State ``value`` at a dotted path, None removes the key.
+        """State ``value`` at a dotted path, None removes the key; as :meth:`update`."""
+        self.update({path: value})
+
+    def update(self, values: Mapping[str, Any]) -> None:
+        """State values at their dotted paths, one after the other; None removes a key.
 
         A named oil or solid on the way is replaced by its table. Of ``numerics.points`` and
         ``numerics.error``, which exclude each other, the other one is removed.
         """
-        document = tomlkit.parse(self.text)
-        if path.startswith(_LAWS):
-            _expand_oil(document)
-        *above, last = path.split(".")
-        node: Any = document
-        for depth, key in enumerate(above):
-            if not isinstance(node.get(key), Mapping):
-                if value is None:
-                    return
-                node[key] = _table(above[: depth + 1], node.get(key))
-            node = node[key]
-        node.pop(replaced_by(path), None)
-        if value is None:
-            node.pop(last, None)
-        else:
-            _put(node, last, value)
+        document = tomlkit.parse(self.text)  # takes longer than all changes
+        for path, value in values.items():
+            _change(document, path, value)
         self._take(tomlkit.dumps(document))
 
     def _take(self, text: str) -> None:
         self.tables, self.text = tables_of_text(text), text
+
+
+def _change(document: Any, path: str, value: Any) -> None:
+    if path.startswith(_LAWS):
+        _expand_oil(document)
+    *above, last = path.split(".")
+    node = document
+    for depth, key in enumerate(above):
+        if not isinstance(node.get(key), Mapping):
+            if value is None:
+                return
+            node[key] = _table(above[: depth + 1], node.get(key))
+        node = node[key]
+    node.pop(replaced_by(path), None)
+    if value is None:
+        node.pop(last, None)
+    else:
+        _put(node, last, value)
 
 
 def _put(node: Any, key: str, value: Any) -> None:

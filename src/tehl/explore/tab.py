@@ -137,12 +137,8 @@ class Tab:
     def apply(self, settings: Mapping[str, Any], path: str = "") -> None:
         """Set what a hint or a choice names; the controls are made again."""
         self._remember()
-
-        def change(case: CaseText) -> None:
-            for key, value in settings.items():
-                case.set(key, None if value is False else value)
-
-        self._edit(path, change, rebuild=True)
+        stated = {key: None if value is False else value for key, value in settings.items()}
+        self._edit(path, lambda case: case.update(stated), rebuild=True)
 
     def undo(self) -> None:
         """Take the case before the last change."""

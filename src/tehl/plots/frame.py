@@ -1,11 +1,13 @@
 """Parts that the pictures of a contact share: title, banner, window, map, colour bar, legend."""
 
 import io
+from pathlib import Path
 from textwrap import fill
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colorbar import Colorbar
 from matplotlib.contour import QuadContourSet
@@ -58,6 +60,22 @@ class Picture(Figure):
         buffer = io.BytesIO()
         self.savefig(buffer, format="png", dpi=self.dpi, bbox_inches="tight")
         return buffer.getvalue()
+
+
+def write_png(picture: Figure, file: Path | IO[bytes], dpi: int) -> None:
+    """Write a picture as PNG: the bytes of ``savefig``, which draws it twice, for layout and file.
+
+    Parameters
+    ----------
+    picture : Figure
+        Any figure of matplotlib; it keeps ``dpi``.
+    file : Path or file object
+        Where to write.
+    dpi : int
+        Pixels per inch.
+    """
+    picture.set_dpi(dpi)
+    FigureCanvasAgg(picture).print_png(file)
 
 
 def figure(

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from tehl.io.summary import summary
 from tehl.plots import centre_lines, film_map, history
+from tehl.plots.frame import write_png
 from tehl.report.headline import headline
 from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
@@ -35,14 +36,18 @@ def result_html(result: Solution | TransientSolution) -> str:
 
 def image_html(figure: Figure, words: str) -> str:
     """Return a matplotlib figure as an image in HTML."""
-    source = data_url(figure, dpi=_NOTEBOOK_DPI, bbox_inches="tight")
-    return f'<img alt="{escape(words)}" src="{source}">'
-
-
-def data_url(figure: Figure, **style: Any) -> str:
-    """Return a figure as a data URL; ``style`` is that of ``savefig``."""
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", **style)
+    figure.savefig(buffer, format="png", dpi=_NOTEBOOK_DPI, bbox_inches="tight")
+    return f'<img alt="{escape(words)}" src="{_url(buffer)}">'
+
+
+def data_url(figure: Figure, dpi: int) -> str:
+    """Return a figure as a data URL."""
+    write_png(figure, buffer := io.BytesIO(), dpi)
+    return _url(buffer)
+
+
+def _url(buffer: io.BytesIO) -> str:
     return f"data:image/png;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"
 
 

@@ -112,7 +112,7 @@ def _shared(result: Solution | TransientSolution, pictures: Pictures, dpi: int) 
         "no_film": no_film(start),
         "rough": rough_film(start),
         "pictures": [
-            (caption, data_url(pictures[name](result), dpi=dpi))
+            (caption, data_url(pictures[name](result), dpi))
             for name, caption in CAPTIONS.items()
             if name in pictures
         ],
