@@ -431,3 +431,11 @@ def test_directions_of_the_steady_film_serve_at_each_frequency():
     parts, images = response.Still(steps, steady, stored).at(3.0)
     assert images.conj() @ images.T == pytest.approx(np.eye(5), abs=1e-12)
     assert parts.T @ images == pytest.approx(steady - 3.0j * stored, abs=1e-12)
+
+
+def test_a_response_that_does_not_converge_leaves_the_film(monkeypatch):
+    monkeypatch.setattr(response, "MOST_DIRECTIONS", 3)
+    found = solve(at(moes_contact(20.0, 5.0), 1.0), on(49))
+    assert found.dynamics is None
+    assert found.status.outcome == "converged, stiffness open"
+    assert "does not converge" in as_text(found)

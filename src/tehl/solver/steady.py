@@ -48,7 +48,7 @@ from tehl.solver.judging.outputs import oil_balance
 from tehl.solver.judging.remedy import LEAST_SECONDS, Reached, solved_on_other_nodes, working_hint
 from tehl.solver.judging.verdict import TOO_COARSE, touching, verdict
 from tehl.solver.monitor import SILENT, Deadline, Monitor, Recorder, TimeIsOverError
-from tehl.solver.physics.dynamics import film_dynamics
+from tehl.solver.physics.dynamics import with_dynamics
 
 NO_MEMORY = "memory"
 GRID_CAUSES = (
@@ -219,12 +219,15 @@ def _after_failure(
         limited = Deadline(monitor, max(options.max_time, LEAST_SECONDS))
         return try_strategies(problem, options, monitor=limited, rough=True)[1]
 
+    def trial(problem: ContactProblem, options: Options) -> Solution:
+        return attempt(problem.model_copy(update={"dynamics": None}), options)
+
     on_others = solved_on_other_nodes(failed, attempt, monitor, end)
     if on_others is not None:
         return on_others.but(options=failed.options)
     if failed.status.cause == "error_not_reached" and failed.errors is not None:
         reached = failed.scaled.film.shape[::-1], failed.errors.film()
-    hint = working_hint(failed, attempt, monitor, end, reached)
+    hint = working_hint(failed, trial, monitor, end, reached)
     failed = failed.but(status=replace(failed.status, hint=hint))
     if reached is None or failed.status.cause == "error_not_reached":  # its film is the best
         return failed
@@ -292,8 +295,7 @@ def try_strategies(  # noqa: PLR0913 (one solve)
         return best, result
     # last, as it overwrites the coarser levels
     monitor.message("stiffness and damping")
-    dynamics = film_dynamics(best.run, problem.dynamics)
-    return best, result.but(dynamics=dynamics, cost=clock.cost())
+    return best, with_dynamics(result, best.run).but(cost=clock.cost())
 
 
 def flooded_film(

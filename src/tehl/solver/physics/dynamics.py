@@ -15,6 +15,7 @@ from tehl.contact.dynamics import Dynamics
 from tehl.kernels import reynolds
 from tehl.operators.transfer import injected
 from tehl.result.fields import FilmDynamics
+from tehl.result.solution import Hint, Solution, Status
 from tehl.solver.cycle.coarsest import CoarsestSolver
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
@@ -58,6 +59,27 @@ class Changes(NamedTuple):
     load_by_speed: Array
     rolling_by_speed: Array
     pressure: Array
+
+
+def with_dynamics(result: Solution, run: FilmSolver) -> Solution:
+    """Return a converged result with the stiffness and damping of its film, or with why not.
+
+    Parameters
+    ----------
+    result : Solution
+        Of a case with ``[dynamics]``.
+    run : FilmSolver
+        As for `film_dynamics`.
+    """
+    assert result.problem.dynamics is not None
+    try:
+        return result.but(dynamics=film_dynamics(run, result.problem.dynamics))
+    except ArithmeticError as error:
+        if result.status.is_vague:
+            return result
+        hint = Hint("State dynamics.frequencies below it.")
+        status = Status(kind="converged", cause="stiffness_open", message=f"{error}.", hint=hint)
+        return result.but(status=status)
 
 
 def film_dynamics(run: FilmSolver, settings: Dynamics) -> FilmDynamics:

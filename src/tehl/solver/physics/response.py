@@ -317,7 +317,9 @@ class Directions:
         least = residual * np.linalg.norm(source)
         while not np.linalg.norm(rest) <= least:  # NaN fails
             if self.number == MOST_DIRECTIONS:
-                raise ArithmeticError(f"the response at Omega = {self.omega:g} does not converge")
+                raise ArithmeticError(
+                    f"The response at omega a_x/u_m = {self.omega:g} does not converge"
+                )
             image = self._next(rest)
             rest = rest - np.vdot(image, rest) * image
         known = np.s_[: self.number]
