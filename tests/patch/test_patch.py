@@ -225,10 +225,10 @@ def patch_case(file, **settings) -> dict:
 
 def test_a_changed_file_is_another_patch_and_a_result_needs_none(tmp_path):
     file = tmp_path / "ground.csv"
-    np.savetxt(file, 2e-5 * random_patch(64), delimiter=",")
+    np.savetxt(file, 2e-5 * random_patch(32), delimiter=",")
     problem = case_from_tables(patch_case(file))[0]
     first = solve(problem, Options(points=129))
-    np.savetxt(file, 1e-5 * random_patch(64), delimiter=",")
+    np.savetxt(file, 1e-5 * random_patch(32), delimiter=",")
     second = solve(problem, Options(points=129))
     assert second.load_sharing.share < 0.7 * first.load_sharing.share
     save(first, tmp_path / "first.nc")
