@@ -161,6 +161,13 @@ def test_a_heated_contact_through_a_boundary_film_works_each_way(way: str):
     assert outcome(("heat", "boundary"), 65, way) == "works"
 
 
+def test_a_film_that_may_touch_is_heated_on_coarser_grids_too():
+    """The nodes that touch follow the heat: to find them on the finest grid takes many cycles."""
+    found = solve(contact("heat", "boundary"), Options(points=129))
+    rises = {one.points[0]: one.temperature_rise for one in found.history}
+    assert rises[65] == pytest.approx(rises[129], rel=0.1)
+
+
 def test_a_study_of_a_transient_run_is_refused_with_a_reason():
     assert outcome(("load",), 65, "study").startswith("refused: ")
     assert outcome(("load",), 65, "study").endswith("a study is one of steady films")

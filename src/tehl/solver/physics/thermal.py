@@ -113,7 +113,8 @@ class Coupling:
             return False
         fine, coarser = levels[-1], self.state
         large = self.heats_from(fine.grid, early=early)
-        resolved = float(fine.film.h.min()) > RESOLVED_FILM_OVER_FLOOR * fine.equations.floor
+        least = RESOLVED_FILM_OVER_FLOOR * fine.equations.floor
+        resolved = fine.share.bounds_film or float(fine.film.h.min()) > least
         if not (finest or coarser is not None or (large and resolved)):
             return False
         self.skip = False
