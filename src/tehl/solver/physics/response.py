@@ -286,11 +286,12 @@ class Directions:
         self, system: FilmResponse, omega: float, close: CloseInverse, still: Still | None = None
     ) -> None:
         self.system, self.omega, self.close = system, omega, close
-        size, kind = (MOST_DIRECTIONS, system.unknown.size), complex if omega else float
-        self.number, self.parts = 0, np.zeros(2 * (MOST_DIRECTIONS,), kind)
+        self.number = 0 if still is None else len(still.steps)
+        self.most, kind = self.number + MOST_DIRECTIONS, complex if omega else float
+        size = self.most, system.unknown.size
+        self.parts = np.zeros((self.most, self.most), kind)
         self.steps, self.images = np.empty(size, kind), np.empty(size, kind)
         if still is not None:
-            self.number = len(still.steps)
             known = np.s_[: self.number]
             self.steps[known] = still.steps
             self.parts[known, known], self.images[known] = still.at(omega)
@@ -316,7 +317,7 @@ class Directions:
         rest, _ = self._without_images(first)
         least = residual * np.linalg.norm(source)
         while not np.linalg.norm(rest) <= least:  # NaN fails
-            if self.number == MOST_DIRECTIONS:
+            if self.number == self.most:
                 raise ArithmeticError(
                     f"The response at omega a_x/u_m = {self.omega:g} does not converge"
                 )
