@@ -262,6 +262,7 @@ def test_the_theme_is_kept_over_a_reload(page):
     page.locator("body.body--dark").wait_for()
     page.reload()
     page.locator("body.body--dark").wait_for()
+    solved(page)  # a click before the page listens is lost
     button.click()
     page.locator("body.body--light").wait_for()
 
