@@ -220,3 +220,13 @@ def test_bars_of_surface_temperatures_compare_the_same_moving_sources():
         assert bars[1] < bars[0] < 0.04
         assert bars[1] < 0.02
         assert abs(first / second - 1.0) < bars[0]
+
+
+def test_the_grid_before_the_finest_is_heated_with_half_as_many_lines():
+    """An isothermal one would put the effect of heat into the error bar of the finest grid."""
+    case = heated_contact(0.5).model_dump(exclude_none=True)
+    case["contact"] = {"radius_x": 0.01, "radius_y": 0.1, "moes_load": 200.0, "moes_speed": 8.0}
+    run = solve(ContactProblem.model_validate(case), Options(points=(129, 65)))
+    rises = {one.points: one.temperature_rise for one in run.history}
+    assert rises[65, 33] == pytest.approx(rises[129, 65], rel=0.1)
+    assert list(rises.values()).count(0.0) == len(rises) - 2

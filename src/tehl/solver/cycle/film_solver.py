@@ -136,7 +136,8 @@ class FilmSolver(GridIteration):
             *before, known = self.solved
             self.solved = tuple(before)
             number = len(known.traces)
-            early = self.coupling.heats_from(known.grid, early=strategy.early)
+            few = self._heats_early(len(grids) - number)
+            early = self.coupling.heats_from(known.grid, early=few)
             fits = number <= len(grids) and grids[number - 1] == known.grid
             if not fits or (strategy.slide_in_steps if known.heat else early):
                 continue

@@ -203,9 +203,18 @@ class GridIteration:
             self._iteration(levels, partial(self.hierarchy.cycle, levels), number)
         finer = len(self.levels) - len(levels)
         full = self.goal.is_open or finer < COMPARED_GRIDS
-        if self.coupling.begin(levels, finest=not finer, full=full, early=self.strategy.early):
+        early = self._heats_early(finer)
+        if self.coupling.begin(levels, finest=not finer, full=full, early=early):
             self._relax_heated(levels)
         return cycles
+
+    def _heats_early(self, finer: int) -> bool:
+        """Return whether a grid before ``finer`` ones may be heated with half as many lines.
+
+        So may the last one before the finest: an isothermal film is not comparable with a heated
+        one, and their difference is not an error.
+        """
+        return self.strategy.early or finer == 1
 
     def _relax_heated(self, levels: Sequence[Level]) -> None:
         """Relax ``levels`` as heated or thinned films need it."""
