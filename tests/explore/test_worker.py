@@ -12,9 +12,11 @@ pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 from tehl.api.problem import case_from_tables
 from tehl.api.solvers import solve
 from tehl.explore.case_text import CaseText
-from tehl.explore.jobs import Ask, Desk, End, Explained, Failure, Part, TooCoarse
+from tehl.explore.curves import response_charts, values_at_frequency
+from tehl.explore.jobs import Ask, Desk, End, Explained, Failure, Part, TooCoarse, yielding
 from tehl.explore.worker import DIED, Solver
 from tehl.io.templates import template_text
+from tests.cases import ball_tables
 
 CASE = CaseText(template_text("ball-on-disc"))
 
@@ -147,6 +149,23 @@ def test_a_coarse_grid_on_which_the_film_did_not_converge_is_a_sentence(quick, w
     messages = list(desk.solve(Ask(tables=case.tables, quick=quick)))
     assert next(one.text for one in messages if isinstance(one, TooCoarse)).startswith(words)
     assert [one.final for one in messages if isinstance(one, Part)] == [True] * (not quick)
+
+
+def test_stiffness_is_solved_for_its_view_and_drawn_over_frequency():
+    desk = Desk(Silent())
+    tables = ball_tables(numerics={"points": 65})
+    parts = [
+        one for one in desk.solve(Ask(tables=tables, view="dynamics")) if isinstance(one, Part)
+    ]
+    found = parts[-1].shown.dynamics
+    assert (found.damping > 0.0).all()
+    charts = response_charts(found, (700.0, 500.0))
+    assert [one.overlay.count('class="point"') for one in charts] == 2 * [found.frequency.size - 1]
+    place = charts[0].frame.x(found.frequency[3])
+    read = f"{found.frequency[3]:.4g} Hz:  k = {found.stiffness[3] * 1e-6:.4g} N/µm"
+    assert values_at_frequency(found, charts, place).startswith(read)
+    assert not values_at_frequency(found, charts, -100.0)
+    assert yielding(tables | {"contact_film": {"thickness": "2 nm"}}).dynamics is None
 
 
 @pytest.mark.skipif(os.name == "nt", reason="kills a process by a signal")

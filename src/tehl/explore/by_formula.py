@@ -32,7 +32,7 @@ def scaled_by_formula(shown: Shown, solved: ContactProblem, wanted: ContactProbl
     """Return what is shown of a solved contact, scaled to the wanted one.
 
     Film, pressure and places along x and y are scaled, and the numbers that follow from them; the
-    others, temperature, interferogram and stress are those of the solved contact.
+    others, temperature, interferogram, stress and stiffness are those of the solved contact.
     """
     ratios = _ratios(solved, wanted)
     lines = shown.lines

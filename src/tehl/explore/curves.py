@@ -8,8 +8,11 @@ import numpy as np
 
 from tehl.explore.axes import Frame, Picture, Scale, keys, svg, turned
 from tehl.explore.shown import Line, Lines, Shown
+from tehl.result.fields import FilmDynamics
 
 _CURVE_LEFT, _CURVE_RIGHT, _CURVE_TOP, _CURVE_BOTTOM = 62.0, 62.0, 28.0, 46.0
+_SPARE_RATIO = 1.3
+"""Ends of an axis of frequencies over the first and the last one."""
 _NEAR_PIXELS = 30.0
 """Pixels from the pointer within which a swept value is read."""
 
@@ -123,6 +126,36 @@ def swept_chart(
             f'<circle cx="{frame.x(here.x):.1f}" cy="{frame.y(here.y):.1f}" r="7" class="here"/>'
         )
     return Picture(frame, svg(*size, parts, f"{labels[1]} over {labels[0]}"))
+
+
+def response_charts(film: FilmDynamics, size: tuple[float, float]) -> list[Picture]:
+    """Draw stiffness and damping over frequency, with their error bars, one below the other."""
+    height = max(190.0, 0.5 * size[1])
+    columns = (
+        ("stiffness [N/µm]", film.stiffness * 1e-6, film.stiffness_error * 1e-6),
+        ("damping [N s/m]", film.damping, film.damping_error),
+    )
+    low, high = film.frequency[film.frequency > 0.0][[0, -1]]
+    span = (low / _SPARE_RATIO, high * _SPARE_RATIO)
+    charts = []
+    for name, values, errors in columns:
+        points = [
+            Point(at, value, error / abs(value))
+            for at, value, error in zip(film.frequency, values, errors, strict=True)
+            if at > 0.0
+        ]
+        charts.append(swept_chart(points, ("frequency [Hz]", name), (size[0], height), span))
+    return charts
+
+
+def values_at_frequency(film: FilmDynamics, charts: Sequence[Picture], right: float) -> str:
+    """Return stiffness and damping at the frequency nearest to a pixel."""
+    places = np.array([abs(charts[0].frame.x(at) - right) for at in film.frequency if at > 0.0])
+    if places.min() > _NEAR_PIXELS:
+        return ""
+    number = int(places.argmin()) + film.frequency.size - places.size
+    frequency, k, c = (one[number] for one in (film.frequency, film.stiffness, film.damping))
+    return f"{frequency:.4g} Hz:  k = {k * 1e-6:.4g} N/µm,  c = {c:.4g} N s/m"
 
 
 def _y_scale(values: list[float], size: tuple[float, float]) -> Scale:

@@ -29,6 +29,7 @@ PICTURES = {
     "temperature": "temperature_section",
     "fringes": "interferogram_white",
     "stress": "stress",
+    "dynamics": "dynamics",
     "relief": "film",
 }
 """Pictures of the package that show a view."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import ConvergenceError, Result
-from tehl.base.errors import TehlError
+from tehl.base.errors import InputError, TehlError
 from tehl.base.lazy import lazy
 from tehl.contact.options import Options
 from tehl.explore.shown import Shown, shown
@@ -191,7 +191,9 @@ class Desk:
         yield Explained(facts(found), found.questions, found.seconds)
         yield from self.compiled(coupled=problem.is_coupled)
         for stage, final in self.stages(steady(problem), options, found, quick=ask.quick):
-            result = self.result(steady(problem), stage)
+            with_dynamics = final and ask.view == "dynamics"
+            wanted = yielding(ask.tables) if with_dynamics else problem
+            result = self.result(steady(wanted), stage)
             if final or result.status.converged:
                 yield Part(shown(result, found, view=ask.view), final)
             else:
@@ -231,6 +233,14 @@ class Desk:
             yield Note("compiling the inner loops once, which takes 10 to 60 s")
         warmup.warm_up(coupled=coupled)
         self.warm.add(coupled)
+
+
+def yielding(tables: dict[str, Any]) -> ContactProblem:
+    """Return the contact with stiffness and damping, where it can have them."""
+    try:
+        return case_from_tables({"dynamics": {}, **tables})[0]
+    except InputError:
+        return case_from_tables(tables)[0]
 
 
 def _key(problem: ContactProblem, options: Options) -> str:

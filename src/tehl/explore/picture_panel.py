@@ -15,7 +15,12 @@ from tehl.explore.colour_map import (
     stress_picture,
     value_at,
 )
-from tehl.explore.curves import line_charts, values_on_line
+from tehl.explore.curves import (
+    line_charts,
+    response_charts,
+    values_at_frequency,
+    values_on_line,
+)
 from tehl.explore.elements import Drawing, mark, read_at_pointer
 from tehl.explore.relief import relief_figure
 from tehl.explore.shown import Shown
@@ -62,7 +67,12 @@ class Slot:
             self.charts = line_charts(shown, size, limits["lines"], other)
             self.drawing.show_lines("".join(chart.overlay for chart in self.charts))
             return
-        picture = _picture(view, shown, limits, size, bar=self.bar)
+        if view == "dynamics" and shown.dynamics is not None:
+            self.charts = response_charts(shown.dynamics, size)
+            self.drawing.show_lines("".join(chart.overlay for chart in self.charts))
+            return
+        known = view != "dynamics"
+        picture = _picture(view, shown, limits, size, bar=self.bar) if known else None
         if picture is None:
             self.drawing.show_lines(f'<p class="empty">{_REASONS.get(view, "")}</p>')
             return
@@ -83,6 +93,8 @@ class Slot:
         picture, shown = self.picture, self.shown
         if shown is not None and self.view == "lines":
             return values_on_line(shown.lines, self.charts, right, down)
+        if shown is not None and shown.dynamics is not None and self.view == "dynamics":
+            return values_at_frequency(shown.dynamics, self.charts, right)
         if picture is None or shown is None:
             return ""
         values = {"temperature": _rise, "stress": _shear}.get(self.view, _values)
@@ -93,6 +105,8 @@ _REASONS = {
     "temperature": "This contact is isothermal. Switch the heat on under “Heat”.",
     "fringes": "The interferogram is being computed.",
     "stress": "The stress is being computed.",
+    "dynamics": "Stiffness and damping follow the film on its last grid, of steady films that oil "
+    "alone carries.",
 }
 
 

@@ -13,6 +13,7 @@ from tehl.plots.stress import DEEPEST_SHOWN, finer
 from tehl.post.stress.influence import COMPONENTS
 from tehl.post.stress.measures import largest_shear
 from tehl.report.explain import Explanation
+from tehl.result.fields import FilmDynamics
 from tehl.result.solution import Settings
 
 _SECTION_POINTS = 41
@@ -116,6 +117,8 @@ class Shown:
     asked for."""
     stress: Deep | None
     """None unless it was asked for."""
+    dynamics: FilmDynamics | None
+    """None unless it was asked for and the film has it."""
 
 
 def shown(result: Result, explanation: Explanation, *, view: str = "") -> Shown:
@@ -139,6 +142,7 @@ def shown(result: Result, explanation: Explanation, *, view: str = "") -> Shown:
         section=_section(result),
         fringes=_fringes(result) if view == "fringes" else None,
         stress=_stress(result) if view == "stress" else None,
+        dynamics=result.dynamics,
     )
 
 

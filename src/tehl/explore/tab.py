@@ -26,12 +26,16 @@ VIEWS = {
     "temperature": "Temperature",
     "fringes": "Interferogram",
     "stress": "Stress",
+    "dynamics": "Stiffness",
     "relief": "3-D film",
     "movie": "Movie",
     "curves": "Curves",
 }
 """Views of a contact, by name."""
-ON_REQUEST = {"fringes": "the interferogram", "stress": "the stress"}
+ON_REQUEST = {
+    **{"fringes": "the interferogram", "stress": "the stress"},
+    "dynamics": "stiffness and damping",
+}
 """Views that are computed when they are shown."""
 _UNDONE = 50
 _LEAST_COLOUR_RANGE = 1.1
