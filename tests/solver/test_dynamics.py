@@ -23,7 +23,7 @@ from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import FAST
 from tehl.solver.cycle.start import pose_problem
-from tehl.solver.physics import response
+from tehl.solver.physics import frequencies
 from tehl.solver.physics.dynamics import changes
 from tehl.studies.bearing import bearing_table, in_series, radial_loads
 from tests.cases import ball_tables
@@ -262,8 +262,8 @@ def test_frequencies_within_a_factor_of_two_share_a_factorisation(monkeypatch):
         close = SimpleNamespace(perm_c=np.arange(3))
         return SimpleNamespace(omega=omega, order=order, close=close)
 
-    monkeypatch.setattr(response, "CloseInverse", inverse)
-    inverses = response.CloseInverses(None)
+    monkeypatch.setattr(frequencies, "CloseInverse", inverse)
+    inverses = frequencies.CloseInverses(None)
     assert inverses.at(1.0) is inverses.at(2.0) is inverses.at(0.5)
     assert inverses.at(1.0).order is None  # the first one finds it
     assert inverses.at(0.0) is inverses.at(0.0)
@@ -428,13 +428,13 @@ def test_directions_of_the_steady_film_serve_at_each_frequency():
     random = np.random.default_rng(1)
     steps, stored = random.normal(size=(2, 5, 40))
     steady = np.linalg.qr(random.normal(size=(40, 5)))[0].T
-    parts, images = response.Still(steps, steady, stored).at(3.0)
+    parts, images = frequencies.Still(steps, steady, stored).at(3.0)
     assert images.conj() @ images.T == pytest.approx(np.eye(5), abs=1e-12)
     assert parts.T @ images == pytest.approx(steady - 3.0j * stored, abs=1e-12)
 
 
 def test_a_response_that_does_not_converge_leaves_the_film(monkeypatch):
-    monkeypatch.setattr(response, "MOST_DIRECTIONS", 3)
+    monkeypatch.setattr(frequencies, "MOST_DIRECTIONS", 3)
     found = solve(at(moes_contact(20.0, 5.0), 1.0), on(49))
     assert found.dynamics is None
     assert found.status.outcome == "converged, stiffness open"

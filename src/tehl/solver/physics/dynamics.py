@@ -22,13 +22,13 @@ from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import one_thread
 from tehl.solver.cycle.start import pose_problem
-from tehl.solver.physics.response import (
+from tehl.solver.physics.frequencies import (
     STATIC_RESIDUAL,
     CloseInverses,
     Directions,
-    FilmResponse,
     Solutions,
 )
+from tehl.solver.physics.response import FilmResponse
 
 FRONT_DISTANCE = 0.1
 """Distance from the cavity, in half-widths, at which the pressure limits the amplitude."""
