@@ -18,15 +18,8 @@ from PIL import Image
 
 from tehl.base.atomic import replacing
 from tehl.base.errors import InputError
-from tehl.plots.frame import (
-    ALONG_X,
-    MICRO,
-    colour_bar,
-    dress_contact,
-    figure,
-    window_part,
-    window_places,
-)
+from tehl.plots.arrows import MICRO
+from tehl.plots.frame import ALONG_X, colour_bar, dress_contact, figure, window_part, window_places
 from tehl.plots.stress import section_image, section_rows
 from tehl.plots.transient import CentreLines, time_unit
 from tehl.post.stress.moving import moving_stress

@@ -14,21 +14,19 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch, Rectangle
-from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
 from tehl.base.typing import Array
 from tehl.contact.hertz import axes_of
+from tehl.plots.arrows import MICRO, entrainment_arrow, outline, spinning_arrows
 from tehl.post.film import no_film
 from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
 
-MICRO, GIGA = 1e6, 1e-9
+GIGA = 1e-9
 WINDOW = ((-2.2, 1.6), (-1.7, 1.7))
 """Part of the domain that is shown, along x and y [Hertz half-widths]."""
 STEPS = (1, 2, 2.5, 5, 10)
-ARROWS = 5
-"""Velocities along each axis of a map of surfaces that spin."""
 BLUE, ORANGE, GREEN = "#1f4e9c", "#c2410c", "#3f7d20"
 PRESSURE, FILM = BLUE, ORANGE
 """Colours of pressure and film."""
@@ -41,8 +39,6 @@ PLAIN: dict[str, Any] = {"fontsize": 8, "frameon": False}
 _ALARM: dict[str, Any] = {"color": "white", "backgroundcolor": "#b3001b", "weight": "bold"}
 _LONGEST_SIDE = 5.8
 _SLENDER_PICTURE = 6.0
-_ARROW_PART = 0.5
-"""Length of the longest arrow over the distance of arrows along x."""
 _END = 0.5
 """Distance from the ends of a roller within which its pressure may have no limit, in half-widths.
 """
@@ -328,7 +324,7 @@ def dress_contact(axes: Axes, result: Solution) -> None:
     rim = contact_rim(widths, result.groups.skew, straight=straight, **style)
     axes.add_patch(rim).set_path_effects(outline("0.25", 1.9))
     if result.problem.motion.mean_spin:
-        _velocities(axes, result)
+        spinning_arrows(axes, result)
 
 
 def contact_rim(widths: tuple[float, float], skew: float, *, straight: bool, **style: Any) -> Patch:
@@ -350,43 +346,6 @@ def contact_rim(widths: tuple[float, float], skew: float, *, straight: bool, **s
         return Rectangle(corner, 2 * a, 2 * b, fill=False, **style)
     first, second, angle = axes_of(*widths, skew)
     return Ellipse((0, 0), 2 * first, 2 * second, angle=np.degrees(angle), fill=False, **style)
-
-
-def _velocities(axes: Axes, result: Solution) -> None:
-    """Draw the mean velocities of surfaces that spin on a map."""
-    motion = result.problem.motion
-    x, y = _arrow_places(axes)
-    u = motion.entrainment_speed - motion.mean_spin * y / MICRO
-    _arrows(axes, (u, motion.mean_spin * x / MICRO), "white")
-
-
-def sliding_arrows(axes: Axes, result: Solution) -> None:
-    """Draw the sliding velocities u_1 - u_2 on a map, where they are not all along x.
-
-    Parameters
-    ----------
-    axes : Axes
-        Of a map in micrometres.
-    result : Solution
-        With the motion of its surfaces.
-    """
-    if not result.problem.motion.is_plain:
-        x, y = _arrow_places(axes)
-        _arrows(axes, result.problem.motion.sliding_field(x / MICRO, y / MICRO), "tab:orange")
-
-
-def _arrow_places(axes: Axes) -> tuple[Array, Array]:
-    places = (np.linspace(*span, ARROWS + 2)[1:-1] for span in (axes.get_xlim(), axes.get_ylim()))
-    x, y = np.meshgrid(*places)
-    return x, y
-
-
-def _arrows(axes: Axes, field: tuple[Array, Array], colour: str) -> None:
-    fastest = float(np.hypot(*field).max()) or 1.0
-    style: dict[str, Any] = {"color": colour, "width": 0.003, "headwidth": 4.0, "zorder": 4}
-    style |= {"angles": "xy", "pivot": "mid", "scale": fastest * ARROWS / _ARROW_PART}
-    arrows = axes.quiver(*_arrow_places(axes), *field, **style)
-    arrows.set_path_effects(outline("0.3", 0.9))
 
 
 def mark_levels(bar: Colorbar, lines: QuadContourSet) -> None:
@@ -419,29 +378,6 @@ def colour_bar(axes: Axes, mesh: ScalarMappable, label: str, **style: Any) -> Co
     thick = 0.045 * max(drawn, 1.0)
     place = axes.inset_axes((1.0 + 0.8 * thick, 0.0, thick, 1.0))
     return figure_of(axes).colorbar(mesh, cax=place, label=label, **style)
-
-
-def entrainment_arrow(axes: Axes) -> None:
-    """Draw the direction of entrainment, in one size on all maps."""
-    place: dict[str, Any] = {"xycoords": "axes points", "zorder": 6}
-    style = {"arrowstyle": "-|>", "color": "white", "lw": 1.6, "shrinkA": 0, "shrinkB": 0}
-    arrow: Any = axes.annotate("", (46, 9), (6, 9), arrowprops=style, **place)
-    arrow.arrow_patch.set_path_effects(outline("0.15", 3.2))
-    words = axes.annotate("oil enters", (6, 15), color="white", fontsize=8, **place)
-    words.set_path_effects(outline("0.15", 2.4))
-
-
-def outline(colour: str, width: float) -> list[AbstractPathEffect]:
-    """Return path effects that keep a thin line or a text legible on any ground.
-
-    Parameters
-    ----------
-    colour : str
-        Of the halo, as matplotlib names it.
-    width : float
-        Of the halo together with what it surrounds [point].
-    """
-    return [withStroke(linewidth=width, foreground=colour)]
 
 
 def nice_levels(span: Span, count: int) -> Array:

@@ -17,7 +17,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tehl.base.typing import Array
-from tehl.plots.frame import MICRO, figure_of, map_axes, window_part
+from tehl.plots.arrows import MICRO
+from tehl.plots.frame import figure_of, map_axes, window_part
 from tehl.result.solution import Solution
 
 Light = Literal["white", "dichromatic", "monochromatic"]

@@ -10,12 +10,12 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from tehl.base.errors import InputError
+from tehl.plots.arrows import MICRO
 from tehl.plots.frame import (
     ALONG_X,
     FILM,
     GIGA,
     GREEN,
-    MICRO,
     PLAIN,
     PRESSURE,
     STEPS,

@@ -13,14 +13,13 @@ from matplotlib.ticker import MaxNLocator, NullFormatter, NullLocator
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
+from tehl.plots.arrows import MICRO, entrainment_arrow, sliding_arrows
 from tehl.plots.frame import (
     GIGA,
     MAP,
-    MICRO,
     STEPS,
     colour_bar,
     dress_contact,
-    entrainment_arrow,
     figure,
     figure_of,
     inner_levels,
@@ -31,7 +30,6 @@ from tehl.plots.frame import (
     nice_levels,
     pressure_top,
     shape,
-    sliding_arrows,
     window_part,
     window_places,
 )

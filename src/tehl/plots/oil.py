@@ -7,9 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from tehl.plots.arrows import MICRO
 from tehl.plots.frame import (
     MAP,
-    MICRO,
     colour_bar,
     figure_of,
     legend_above,

@@ -11,12 +11,12 @@ from scipy.interpolate import make_interp_spline
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
+from tehl.plots.arrows import MICRO
 from tehl.plots.frame import (
     BLUE,
     GIGA,
     GREEN,
     MAP,
-    MICRO,
     ORANGE,
     PLAIN,
     colour_bar,

@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from tehl.plots.frame import BLUE, MICRO, ORANGE, PLAIN, STEPS, Picture, contact_rim, outline
+from tehl.plots.arrows import MICRO, outline
+from tehl.plots.frame import BLUE, ORANGE, PLAIN, STEPS, Picture, contact_rim
 from tehl.roughness.preview import Mesh, Preview, View, view
 
 _CLIPPED, _COUNTED_HEIGHTS = 0.1, 10**6

@@ -16,12 +16,12 @@ from matplotlib.ticker import MaxNLocator
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
+from tehl.plots.arrows import MICRO, entrainment_arrow
 from tehl.plots.frame import (
     ALONG_X,
     BLUE,
     GREEN,
     MAP,
-    MICRO,
     ORANGE,
     PLAIN,
     STEPS,
@@ -30,7 +30,6 @@ from tehl.plots.frame import (
     centre_row,
     colour_bar,
     dress_contact,
-    entrainment_arrow,
     figure,
     figure_of,
     inner_levels,

@@ -9,19 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from tehl.base.typing import Array
-from tehl.plots.frame import (
-    ALONG_X,
-    FILM,
-    GIGA,
-    GREEN,
-    MICRO,
-    PLAIN,
-    PRESSURE,
-    WINDOW,
-    figure,
-    outline,
-    span_part,
-)
+from tehl.plots.arrows import MICRO, outline
+from tehl.plots.frame import ALONG_X, FILM, GIGA, GREEN, PLAIN, PRESSURE, WINDOW, figure, span_part
 from tehl.post.transient import distances, envelope, passing_features
 from tehl.post.transient_numbers import why_share_unknown
 from tehl.result.transient import HistoryBars, TransientSolution
