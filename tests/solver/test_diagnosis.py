@@ -1,5 +1,7 @@
 """Likely causes of an iteration that diverged or stalled."""
 
+from types import SimpleNamespace
+
 import pytest
 
 from tehl.api.problem import ContactProblem, case_from_tables
@@ -9,10 +11,17 @@ from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.io.case import tables_of_text
 from tehl.io.templates import template_text
+from tehl.result.solution import CycleReport
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import COUPLED
-from tehl.solver.judging.diagnosis import LikelyCause, diverged, grid_hint, likely_cause
+from tehl.solver.judging.diagnosis import (
+    LikelyCause,
+    diverged,
+    grid_hint,
+    likely_cause,
+    not_reached,
+)
 from tests.reference import heated_contact, moes_contact
 
 DOMAIN = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
@@ -100,3 +109,21 @@ def test_the_status_of_a_diverged_run_has_the_likely_cause_and_its_hint():
     assert "65 x 65" in status.message
     assert "below the oil at the inlet" in status.message
     assert "within 40 K" in str(status.hint)
+
+
+@pytest.mark.parametrize(
+    ("kelvin", "words"),
+    [(0.0, "the residual is 2.0e-03"), (5.0, "the temperature still changes by 5 K per cycle")],
+)
+def test_what_has_not_converged_is_named(kelvin, words):
+    report = CycleReport(
+        **{"points": (65, 65), "cycle": 9, "residual": 2e-3, "change": 1e-3, "load_error": 1e-8},
+        **{"film_central": 1.0, "film_minimum": 0.5, "smoother": "fast"},
+        **{"temperature_change": kelvin, "temperature_rise": 10.0},
+    )
+    run = SimpleNamespace(
+        options=Options(accuracy="tight", max_cycles=1),
+        traces=[SimpleNamespace(reports=[report])],
+        strategy=SimpleNamespace(patience=1),
+    )
+    assert not_reached(run).message.startswith(f"After 1 cycles on 65 x 65 nodes {words}")

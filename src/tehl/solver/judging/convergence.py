@@ -195,6 +195,11 @@ def must_stop(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
     return small and last.temperature_change <= KELVIN_CHANGE
 
 
+def temperature_scale(report: CycleReport) -> float:
+    """Return the tolerance of the temperature over that of the film [K]."""
+    return max(abs(report.temperature_rise), 1.0) * KELVIN_TOLERANCE_FACTOR
+
+
 def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
     """Whether the cycles reached the accuracy of the options.
 
@@ -208,7 +213,7 @@ def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
     if options.accuracy == "tight":
         last = now.reports[-1]
         change = max(last.residual, last.change, abs(last.load_error)) / now.damping
-        kelvin = max(abs(last.temperature_rise), 1.0) * KELVIN_TOLERANCE_FACTOR * options.tolerance
+        kelvin = temperature_scale(last) * options.tolerance
         return change <= options.tolerance and last.temperature_change <= kelvin
     return film_converged(now, coarser) and temperature_converged(now, coarser)
 

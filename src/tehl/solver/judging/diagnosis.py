@@ -18,6 +18,7 @@ from tehl.estimate.summits import shared_load
 from tehl.result.solution import Hint, Settings, Status
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
+from tehl.solver.judging.convergence import temperature_scale
 from tehl.solver.judging.film_summary import film_summary
 
 LARGEST_TRACTION = 0.1
@@ -72,10 +73,10 @@ def not_reached(run: FilmSolver) -> Status:
         if options.accuracy == "tight"
         else "the film still changes by more than a third of its discretisation error"
     )
-    message = (
-        f"After {len(reports)} cycles on {grid_size(last.points)} the "
-        f"{worst} is {numbers[worst]:.1e}; {wanted}."
-    )
+    found = f"the {worst} is {numbers[worst]:.1e}; {wanted}"
+    if last.temperature_change > temperature_scale(last) * numbers[worst]:
+        found = f"the temperature still changes by {last.temperature_change:.2g} K per cycle"
+    message = f"After {len(reports)} cycles on {grid_size(last.points)} {found}."
     hint = Hint(
         "it was still converging.", {"numerics.max_cycles": MORE_CYCLES * options.max_cycles}
     )
@@ -84,9 +85,9 @@ def not_reached(run: FilmSolver) -> Status:
         hint = Hint(advice, {"numerics.accuracy": False})
     if options.accuracy == "change" or len(reports) >= options.max_cycles * run.strategy.patience:
         return Status(kind="not_converged", cause="too_few_cycles", message=message, hint=hint)
-    found, hint = _likely_cause(run), grid_hint(run.finest.grid.points, run.hierarchy.scaled)
-    if found is not None:
-        message, hint = f"{message} Likely cause: {found.message}", found.hint
+    cause, hint = _likely_cause(run), grid_hint(run.finest.grid.points, run.hierarchy.scaled)
+    if cause is not None:
+        message, hint = f"{message} Likely cause: {cause.message}", cause.hint
     return Status(
         kind="stalled",
         cause="stalled",
