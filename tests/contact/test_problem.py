@@ -147,7 +147,10 @@ def test_the_temperature_of_the_oil_is_stated_once():
 
 def test_heat_needs_all_its_properties():
     rigid = {"young_modulus": 2e11, "poisson_ratio": 0.3}
-    with pytest.raises(ValidationError, match=r"surface_2.material.density is missing.*kg/m\^3"):
+    with pytest.raises(
+        ValidationError,
+        match=r"surface_2.material.density is missing.*kg/m\^3.*; missing too: .*2.material.cond",
+    ):
         hot(surface_2={"material": rigid})
     with pytest.raises(ValidationError, match=r"lubricant.heat_capacity is missing.*J/kg/K"):
         problem(thermal={}, lubricant={**ball_tables()["lubricant"], "conductivity": 0.14})

@@ -177,7 +177,7 @@ def check_temperatures(problem: PointContact) -> None:
 
 def check_heat(problem: PointContact) -> None:
     """Check that a thermal run has the properties it needs, and an isothermal one no bodies'."""
-    oil = problem.lubricant
+    oil, needed = problem.lubricant, dict[str, tuple[object, Quantity]]()
     for key in SURFACES:
         surface = getattr(problem, key)
         for name in ("temperature", "thermal_resistance", "cooling"):
@@ -186,12 +186,20 @@ def check_heat(problem: PointContact) -> None:
                     f"{key}.{name} has an effect in thermal runs only: add a [thermal] table, or "
                     "state lubricant.temperature for an isothermal film"
                 )
-        for name, wanted in THERMAL_PROPERTIES.items() if problem.thermal else ():
-            _need(f"{key}.material.{name}", getattr(surface.material, name), wanted)
+        for name, wanted in THERMAL_PROPERTIES.items():
+            needed[f"{key}.material.{name}"] = getattr(surface.material, name), wanted
     if problem.thermal is None:
         return
-    _need("lubricant.conductivity", oil.conductivity, quantity(Conductivity))
-    _need("lubricant.heat_capacity", oil.heat_capacity, quantity(HeatCapacity))
+    needed["lubricant.conductivity"] = oil.conductivity, quantity(Conductivity)
+    needed["lubricant.heat_capacity"] = oil.heat_capacity, quantity(HeatCapacity)
+    missing = {key: wanted for key, (value, wanted) in needed.items() if value is None}
+    if missing:
+        (key, wanted), *others = missing.items()
+        listed = ", ".join(f"{other} ({of.example})" for other, of in others)
+        raise ValueError(
+            f"{key} is missing, which a thermal run needs: give {wanted.name} such as "
+            f"{wanted.example}" + (f"; missing too: {listed}" if others else "")
+        )
     if not oil.viscosity.temperature_coefficient > 0:
         raise ValueError(
             "lubricant.viscosity has no temperature coefficient, which a thermal run needs: "
@@ -210,15 +218,6 @@ def check_bodies(problem: PointContact) -> None:
             f"temperature, or leave out {table}"
         )
     _ = problem.resistances
-
-
-def _need(key: str, value: object, wanted: Quantity) -> None:
-    """Raise if a property that a thermal run needs is missing."""
-    if value is None:
-        raise ValueError(
-            f"{key} is missing, which a thermal run needs: give {wanted.name} such as "
-            f"{wanted.example}"
-        )
 
 
 def _remedy(problem: PointContact) -> str:
