@@ -3,6 +3,7 @@
 import base64
 import io
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -89,6 +90,12 @@ def test_the_value_under_the_pointer_is_that_of_the_field(seen):
     found = value_at(maps.x, maps.y, maps.film, float(maps.x[column]), float(maps.y[row]))
     assert found == pytest.approx(float(maps.film[row, column]), rel=1e-6)
     assert value_at(maps.x, maps.y, maps.film, 1e9, 0.0) is None
+
+
+def test_a_turned_ellipse_is_narrower_on_the_centre_line_than_as_a_whole(seen):
+    turned = replace(seen.maps, skew=0.6)
+    assert turned.half_width == pytest.approx(0.8 * turned.half_widths[0])
+    assert seen.maps.half_width == seen.maps.half_widths[0]
 
 
 def test_the_interferogram_is_an_image_of_bytes(seen):

@@ -129,7 +129,7 @@ def section_picture(
     axes = (section.x, np.linspace(0.0, 1.0, len(section.rise)))
     look = Look(limits, ticks(limits.low, limits.high, 9), "inferno", "rise over the inlet [K]")
     parts = _contours(section.rise, axes, frame, look.levels)
-    for edge in (-maps.half_widths[0], maps.half_widths[0]):
+    for edge in (-maps.half_width, maps.half_width):
         at = frame.x(edge)
         parts += f'<path d="M{at:.1f} {frame.y.start}V{frame.y.end}" class="hertz"/>'
     parts += frame.svg(_X_LABEL, "z / h, from surface 1 to 2")
@@ -149,7 +149,7 @@ def stress_picture(found: Deep, maps: Maps, limits: Limits, size: tuple[float, f
     levels = ticks(limits.low, limits.high, 8)[1:]
     look = Look(limits, levels, "viridis", "largest shear stress [GPa]")
     parts = _contours(found.shear, axes, frame, look.levels)
-    for edge in (-maps.half_widths[0], maps.half_widths[0]):
+    for edge in (-maps.half_width, maps.half_width):
         at = frame.x(edge)
         parts += f'<path d="M{at:.1f} {frame.y.end}v14" class="hertz"/>'
     parts += text(frame.x.start, frame.y.end - 12, found.words, "small", "start")

@@ -53,6 +53,11 @@ class Maps:
     skew: float = 0.0
     """s of the rim of the Hertz contact, X^2 - 2 s X Y + Y^2 = 1 - s^2 in half-widths."""
 
+    @property
+    def half_width(self) -> float:
+        """Half-width of the Hertz contact on y = 0 [um]: that of a turned ellipse is less."""
+        return float(self.half_widths[0] * np.sqrt(1.0 - self.skew**2))
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Lines:

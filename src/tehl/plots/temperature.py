@@ -199,8 +199,8 @@ def temperature_section(result: Solution, *, title: bool | None = True) -> Figur
 
 
 def _mark_ends(axes: Axes, result: Solution, colour: str, width: float) -> None:
-    """Mark where the Hertz contact begins and ends."""
-    half = result.scales.half_width_x * MICRO
+    """Mark where the Hertz contact begins and ends on y = 0, where a turned ellipse is narrower."""
+    half = result.scales.half_width_x * MICRO * np.sqrt(1.0 - result.groups.skew**2)
     for place in (-half, half):
         axes.axvline(place, color=colour, lw=width, ls="--")
 
