@@ -99,7 +99,7 @@ class Directions:
 
     Eisenstat, Elman and Schultz 1983, SIAM J. Numer. Anal. 20, 345 (generalised conjugate
     residuals). The image of step j is the sum of the images up to j times column j of ``parts``.
-    Those that a steady film has taken lessen the number at each frequency by a third: smooth
+    Those that a steady film has taken lessen the number at each frequency by a fifth: smooth
     pressures, whose deflection the approximate inverse does not hold.
     """
 
