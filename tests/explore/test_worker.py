@@ -4,6 +4,7 @@ import asyncio
 import multiprocessing
 import os
 import signal
+from dataclasses import replace
 
 import pytest
 
@@ -13,7 +14,7 @@ from tehl.api.problem import case_from_tables
 from tehl.api.solvers import solve
 from tehl.explore.case_text import CaseText
 from tehl.explore.curves import response_charts, values_at_frequency
-from tehl.explore.jobs import Ask, Desk, End, Explained, Failure, Part, TooCoarse, yielding
+from tehl.explore.jobs import Ask, Desk, End, Explained, Failure, Part, TooCoarse, with_stiffness
 from tehl.explore.worker import DIED, Solver
 from tehl.io.templates import template_text
 from tests.cases import ball_tables
@@ -157,15 +158,18 @@ def test_stiffness_is_solved_for_its_view_and_drawn_over_frequency():
     parts = [
         one for one in desk.solve(Ask(tables=tables, view="dynamics")) if isinstance(one, Part)
     ]
-    found = parts[-1].shown.dynamics
+    shown = parts[-1].shown
+    found = shown.dynamics
     assert (found.damping > 0.0).all()
-    charts = response_charts(found, (700.0, 500.0))
+    charts = response_charts(shown, (700.0, 500.0))
     assert [one.overlay.count('class="point"') for one in charts] == 2 * [found.frequency.size - 1]
     place = charts[0].frame.x(found.frequency[3])
     read = f"{found.frequency[3]:.4g} Hz:  k = {found.stiffness[3] * 1e-6:.4g} N/µm"
-    assert values_at_frequency(found, charts, place).startswith(read)
-    assert not values_at_frequency(found, charts, -100.0)
-    assert yielding(tables | {"contact_film": {"thickness": "2 nm"}}).dynamics is None
+    assert values_at_frequency(shown, charts, place).startswith(read)
+    assert not values_at_frequency(shown, charts, -100.0)
+    of_a_line = response_charts(replace(shown, per_metre=True), (700.0, 500.0))
+    assert "of one metre [N/µm]" in of_a_line[0].overlay
+    assert with_stiffness(tables | {"contact_film": {"thickness": "2 nm"}}).dynamics is None
 
 
 @pytest.mark.skipif(os.name == "nt", reason="kills a process by a signal")

@@ -126,4 +126,4 @@ def test_what_has_not_converged_is_named(kelvin, words):
         traces=[SimpleNamespace(reports=[report])],
         strategy=SimpleNamespace(patience=1),
     )
-    assert not_reached(run).message.startswith(f"After 1 cycles on 65 x 65 nodes {words}")
+    assert not_reached(run).message.startswith(f"After 1 cycle on 65 x 65 nodes {words}")

@@ -2,6 +2,7 @@
 
 from importlib.metadata import version
 from types import SimpleNamespace
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -19,11 +20,12 @@ from tehl.io.export import export
 from tehl.io.store import save
 from tehl.operators.flow import flow_table
 from tehl.plots.dynamics import dynamics_curves
+from tehl.result.solution import Hint, Status
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import FAST
 from tehl.solver.cycle.start import pose_problem
-from tehl.solver.physics import frequencies
+from tehl.solver.physics import dynamics, frequencies
 from tehl.solver.physics.dynamics import changes
 from tehl.studies.bearing import bearing_table, in_series, radial_loads
 from tests.cases import ball_tables
@@ -428,7 +430,7 @@ def test_directions_of_the_steady_film_serve_at_each_frequency():
     random = np.random.default_rng(1)
     steps, stored = random.normal(size=(2, 5, 40))
     steady = np.linalg.qr(random.normal(size=(40, 5)))[0].T
-    parts, images = frequencies.Still(steps, steady, stored).at(3.0)
+    parts, images = frequencies.SteadySteps(steps, steady, stored).at(3.0)
     assert images.conj() @ images.T == pytest.approx(np.eye(5), abs=1e-12)
     assert parts.T @ images == pytest.approx(steady - 3.0j * stored, abs=1e-12)
 
@@ -438,4 +440,9 @@ def test_a_response_that_does_not_converge_leaves_the_film(monkeypatch):
     found = solve(at(moes_contact(20.0, 5.0), 1.0), on(49))
     assert found.dynamics is None
     assert found.status.outcome == "converged, stiffness open"
+    assert "at 0 Hz" in found.status.message
     assert "does not converge" in as_text(found)
+    sharp = Status(kind="converged", message="Sharp end.", hint=Hint("Relieve it."))
+    monkeypatch.setattr(dynamics, "film_dynamics", Mock(side_effect=frequencies.NoResponseError(1)))
+    known = dynamics.with_dynamics(found.but(status=sharp), None).status
+    assert known.message.startswith("Sharp end. The response of the film at ")

@@ -8,7 +8,6 @@ import numpy as np
 
 from tehl.explore.axes import Frame, Picture, Scale, keys, svg, turned
 from tehl.explore.shown import Line, Lines, Shown
-from tehl.result.fields import FilmDynamics
 
 _CURVE_LEFT, _CURVE_RIGHT, _CURVE_TOP, _CURVE_BOTTOM = 62.0, 62.0, 28.0, 46.0
 _SPARE_RATIO = 1.3
@@ -128,12 +127,15 @@ def swept_chart(
     return Picture(frame, svg(*size, parts, f"{labels[1]} over {labels[0]}"))
 
 
-def response_charts(film: FilmDynamics, size: tuple[float, float]) -> list[Picture]:
+def response_charts(shown: Shown, size: tuple[float, float]) -> list[Picture]:
     """Draw stiffness and damping over frequency, with their error bars, one below the other."""
-    height = max(190.0, 0.5 * size[1])
+    film, height = shown.dynamics, max(190.0, 0.5 * size[1])
+    if film is None:
+        return []
+    of = " of one metre" if shown.per_metre else ""
     columns = (
-        ("stiffness [N/µm]", film.stiffness * 1e-6, film.stiffness_error * 1e-6),
-        ("damping [N s/m]", film.damping, film.damping_error),
+        (f"stiffness{of} [N/µm]", film.stiffness * 1e-6, film.stiffness_error * 1e-6),
+        (f"damping{of} [N s/m]", film.damping, film.damping_error),
     )
     low, high = film.frequency[film.frequency > 0.0][[0, -1]]
     span = (low / _SPARE_RATIO, high * _SPARE_RATIO)
@@ -148,8 +150,11 @@ def response_charts(film: FilmDynamics, size: tuple[float, float]) -> list[Pictu
     return charts
 
 
-def values_at_frequency(film: FilmDynamics, charts: Sequence[Picture], right: float) -> str:
+def values_at_frequency(shown: Shown, charts: Sequence[Picture], right: float) -> str:
     """Return stiffness and damping at the frequency nearest to a pixel."""
+    film = shown.dynamics
+    if film is None:
+        return ""
     places = np.array([abs(charts[0].frame.x(at) - right) for at in film.frequency if at > 0.0])
     if places.min() > _NEAR_PIXELS:
         return ""

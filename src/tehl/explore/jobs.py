@@ -191,8 +191,8 @@ class Desk:
         yield Explained(facts(found), found.questions, found.seconds)
         yield from self.compiled(coupled=problem.is_coupled)
         for stage, final in self.stages(steady(problem), options, found, quick=ask.quick):
-            with_dynamics = final and ask.view == "dynamics"
-            wanted = yielding(ask.tables) if with_dynamics else problem
+            asked = final and ask.view == "dynamics"
+            wanted = with_stiffness(ask.tables) if asked else problem
             result = self.result(steady(wanted), stage)
             if final or result.status.converged:
                 yield Part(shown(result, found, view=ask.view), final)
@@ -235,7 +235,7 @@ class Desk:
         self.warm.add(coupled)
 
 
-def yielding(tables: dict[str, Any]) -> ContactProblem:
+def with_stiffness(tables: dict[str, Any]) -> ContactProblem:
     """Return the contact with stiffness and damping, where it can have them."""
     try:
         return case_from_tables({"dynamics": {}, **tables})[0]

@@ -63,18 +63,18 @@ class Slot:
         if self.relief is not None:
             self.relief.delete()
             self.relief = None
-        if view == "lines":
-            self.charts = line_charts(shown, size, limits["lines"], other)
-            self.drawing.show_lines("".join(chart.overlay for chart in self.charts))
+        empty = f'<p class="empty">{_REASONS.get(view, "")}</p>'
+        if view in ("lines", "dynamics"):
+            self.charts = (
+                line_charts(shown, size, limits["lines"], other)
+                if view == "lines"
+                else response_charts(shown, size)
+            )
+            self.drawing.show_lines("".join(chart.overlay for chart in self.charts) or empty)
             return
-        if view == "dynamics" and shown.dynamics is not None:
-            self.charts = response_charts(shown.dynamics, size)
-            self.drawing.show_lines("".join(chart.overlay for chart in self.charts))
-            return
-        known = view != "dynamics"
-        picture = _picture(view, shown, limits, size, bar=self.bar) if known else None
+        picture = _picture(view, shown, limits, size, bar=self.bar)
         if picture is None:
-            self.drawing.show_lines(f'<p class="empty">{_REASONS.get(view, "")}</p>')
+            self.drawing.show_lines(empty)
             return
         self.picture = picture
         self.drawing.show(picture)
@@ -93,8 +93,8 @@ class Slot:
         picture, shown = self.picture, self.shown
         if shown is not None and self.view == "lines":
             return values_on_line(shown.lines, self.charts, right, down)
-        if shown is not None and shown.dynamics is not None and self.view == "dynamics":
-            return values_at_frequency(shown.dynamics, self.charts, right)
+        if shown is not None and self.view == "dynamics":
+            return values_at_frequency(shown, self.charts, right)
         if picture is None or shown is None:
             return ""
         values = {"temperature": _rise, "stress": _shear}.get(self.view, _values)

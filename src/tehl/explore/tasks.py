@@ -15,7 +15,7 @@ from tehl.base.errors import InputError
 from tehl.base.lazy import lazy
 from tehl.base.typing import Array, SingleArray
 from tehl.contact.options import Options
-from tehl.explore.jobs import Cycles, Desk, Note, yielding
+from tehl.explore.jobs import Cycles, Desk, Note, with_stiffness
 from tehl.explore.shown import Maps, maps_of
 from tehl.plots.frame import window_part
 from tehl.result.transient import StepReport
@@ -117,7 +117,7 @@ class Export:
         """Yield the file."""
         problem, options = case_from_tables(self.tables)
         if self.kind.startswith("dynamics."):
-            problem = yielding(self.tables)
+            problem = with_stiffness(self.tables)
         result: Result | TransientResult
         if problem.transient is None:
             result = desk.result(problem, options)

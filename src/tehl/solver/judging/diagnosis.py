@@ -76,7 +76,9 @@ def not_reached(run: FilmSolver) -> Status:
     found = f"the {worst} is {numbers[worst]:.1e}; {wanted}"
     if last.temperature_change > temperature_scale(last) * numbers[worst]:
         found = f"the temperature still changes by {last.temperature_change:.2g} K per cycle"
-    message = f"After {len(reports)} cycles on {grid_size(last.points)} {found}."
+    message = (
+        f"After {len(reports)} cycle{'s' * (len(reports) > 1)} on {grid_size(last.points)} {found}."
+    )
     hint = Hint(
         "it was still converging.", {"numerics.max_cycles": MORE_CYCLES * options.max_cycles}
     )

@@ -26,6 +26,7 @@ from tehl.solver.physics.frequencies import (
     STATIC_RESIDUAL,
     CloseInverses,
     Directions,
+    NoResponseError,
     Solutions,
 )
 from tehl.solver.physics.response import FilmResponse
@@ -74,11 +75,15 @@ def with_dynamics(result: Solution, run: FilmSolver) -> Solution:
     assert result.problem.dynamics is not None
     try:
         return result.but(dynamics=film_dynamics(run, result.problem.dynamics))
-    except ArithmeticError as error:
+    except NoResponseError as error:
+        scales = result.scales
+        hertz = error.omega * scales.speed / (2.0 * np.pi * scales.half_width_x)
+        message = f"The response of the film at {hertz:.3g} Hz does not converge."
         if result.status.is_vague:
-            return result
-        hint = Hint("State dynamics.frequencies below it.")
-        status = Status(kind="converged", cause="stiffness_open", message=f"{error}.", hint=hint)
+            status = replace(result.status, message=f"{result.status.message} {message}")
+        else:
+            hint = Hint("State other dynamics.frequencies, or fewer nodes.")
+            status = Status(kind="converged", cause="stiffness_open", message=message, hint=hint)
         return result.but(status=status)
 
 
@@ -234,7 +239,7 @@ def changes(
         inverses = CloseInverses(system)
         still = Directions(system, 0.0, inverses.at(0.0))
         static = [still.solve(sources[0][0], 0.0 * every, STATIC_RESIDUAL)]
-        known = still.still()  # of the approach: those of the speed cost what they save
+        known = still.for_others()  # of the approach: those of the speed cost what they save
         static += [still.solve(steady, 0.0 * every, STATIC_RESIDUAL) for steady, _ in sources[1:]]
         space = Solutions(
             system,

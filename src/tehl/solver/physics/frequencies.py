@@ -29,6 +29,14 @@ DEPENDENT = 1e-13
 """Eigenvalue of the products of solutions, over the largest, below which they are dependent."""
 
 
+class NoResponseError(ArithmeticError):
+    """The search at ``omega``, a frequency omega a_x/u_m, did not end."""
+
+    def __init__(self, omega: float) -> None:
+        super().__init__(f"the response at omega a_x/u_m = {omega:g} does not converge")
+        self.omega = omega
+
+
 class CloseInverse:
     """Approximate inverse of A - i Omega B: each pressure deflects its own node alone.
 
@@ -80,8 +88,8 @@ class CloseInverses:
         return self.known[-1]
 
 
-class Still(NamedTuple):
-    """Steps of a steady film, with orthonormal images A u, and B u, (m, n) each."""
+class SteadySteps(NamedTuple):
+    """Steps of the search at frequency zero, with orthonormal images A u, and B u, (m, n) each."""
 
     steps: Array
     steady: Array
@@ -104,25 +112,29 @@ class Directions:
     """
 
     def __init__(
-        self, system: FilmResponse, omega: float, close: CloseInverse, still: Still | None = None
+        self,
+        system: FilmResponse,
+        omega: float,
+        close: CloseInverse,
+        steady: SteadySteps | None = None,
     ) -> None:
         self.system, self.omega, self.close = system, omega, close
-        self.number = 0 if still is None else len(still.steps)
+        self.number = 0 if steady is None else len(steady.steps)
         self.most, kind = self.number + MOST_DIRECTIONS, complex if omega else float
         size = self.most, system.unknown.size
         self.parts = np.zeros((self.most, self.most), kind)
         self.steps, self.images = np.empty(size, kind), np.empty(size, kind)
-        if still is not None:
+        if steady is not None:
             known = np.s_[: self.number]
-            self.steps[known] = still.steps
-            self.parts[known, known], self.images[known] = still.at(omega)
+            self.steps[known] = steady.steps
+            self.parts[known, known], self.images[known] = steady.at(omega)
 
-    def still(self) -> Still:
-        """Return the directions of the steady film, for those at other frequencies."""
+    def for_others(self) -> SteadySteps:
+        """Return the directions at frequency zero, for the search at other frequencies."""
         known = np.s_[: self.number]
         steps = solve_triangular(self.parts[known, known], self.steps[known], trans="T")
         stored = np.array([self.system.parts(one)[1] for one in steps])
-        return Still(steps, self.images[known], stored)
+        return SteadySteps(steps, self.images[known], stored)
 
     def solve(self, source: Array, start: Array, residual: float) -> Array:
         """Return the solution of (A - i Omega B) u = source.
@@ -139,9 +151,7 @@ class Directions:
         least = residual * np.linalg.norm(source)
         while not np.linalg.norm(rest) <= least:  # NaN fails
             if self.number == self.most:
-                raise ArithmeticError(
-                    f"The response at omega a_x/u_m = {self.omega:g} does not converge"
-                )
+                raise NoResponseError(self.omega)
             image = self._next(rest)
             rest = rest - np.vdot(image, rest) * image
         known = np.s_[: self.number]
