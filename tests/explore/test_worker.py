@@ -167,8 +167,8 @@ def test_stiffness_is_solved_for_its_view_and_drawn_over_frequency():
     read = f"{found.frequency[3]:.4g} Hz:  k = {found.stiffness[3] * 1e-6:.4g} N/µm"
     assert values_at_frequency(shown, charts, place).startswith(read)
     assert not values_at_frequency(shown, charts, -100.0)
-    of_a_line = response_charts(replace(shown, per_metre=True), (700.0, 500.0))
-    assert "of one metre [N/µm]" in of_a_line[0].overlay
+    of_a_line = response_charts(replace(shown, is_line=True), (700.0, 500.0))
+    assert "per mm [N/µm]" in of_a_line[0].overlay
     assert with_stiffness(tables | {"contact_film": {"thickness": "2 nm"}}).dynamics is None
 
 

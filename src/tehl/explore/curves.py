@@ -132,10 +132,11 @@ def response_charts(shown: Shown, size: tuple[float, float]) -> list[Picture]:
     film, height = shown.dynamics, max(190.0, 0.5 * size[1])
     if film is None:
         return []
-    of = " of one metre" if shown.per_metre else ""
+    part, per = (1e-3, " per mm") if shown.is_line else (1.0, "")
+    stiffness, damping = f"stiffness{per} [N/µm]", f"damping{per} [N s/m]"
     columns = (
-        (f"stiffness{of} [N/µm]", film.stiffness * 1e-6, film.stiffness_error * 1e-6),
-        (f"damping{of} [N s/m]", film.damping, film.damping_error),
+        (stiffness, film.stiffness * 1e-6 * part, film.stiffness_error * 1e-6 * part),
+        (damping, film.damping * part, film.damping_error * part),
     )
     low, high = film.frequency[film.frequency > 0.0][[0, -1]]
     span = (low / _SPARE_RATIO, high * _SPARE_RATIO)
@@ -160,7 +161,9 @@ def values_at_frequency(shown: Shown, charts: Sequence[Picture], right: float) -
         return ""
     number = int(places.argmin()) + film.frequency.size - places.size
     frequency, k, c = (one[number] for one in (film.frequency, film.stiffness, film.damping))
-    return f"{frequency:.4g} Hz:  k = {k * 1e-6:.4g} N/µm,  c = {c:.4g} N s/m"
+    part, per = (1e-3, ", per mm") if shown.is_line else (1.0, "")
+    k, c = k * 1e-6 * part, c * part
+    return f"{frequency:.4g} Hz:  k = {k:.4g} N/µm,  c = {c:.4g} N s/m{per}"
 
 
 def _y_scale(values: list[float], size: tuple[float, float]) -> Scale:

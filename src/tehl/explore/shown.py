@@ -124,8 +124,8 @@ class Shown:
     """None unless it was asked for."""
     dynamics: FilmDynamics | None
     """None unless it was asked for and the film has it."""
-    per_metre: bool
-    """Whether its numbers are those of one metre of a line contact."""
+    is_line: bool
+    """Whether stiffness and damping are those of one metre of a line contact."""
 
 
 def shown(result: Result, explanation: Explanation, *, view: str = "") -> Shown:
@@ -150,7 +150,7 @@ def shown(result: Result, explanation: Explanation, *, view: str = "") -> Shown:
         fringes=_fringes(result) if view == "fringes" else None,
         stress=_stress(result) if view == "stress" else None,
         dynamics=result.dynamics,
-        per_metre=result.problem.contact.is_line,
+        is_line=result.problem.contact.is_line,
     )
 
 

@@ -139,7 +139,7 @@ def ends_of(grid: Grid) -> tuple[int, ...]:
     """Return the stored rows at the ends of a roller, none of other contacts."""
     if not grid.is_closed:
         return ()
-    return tuple(row % grid.shape[0] for row in grid.edge_rows)
+    return (grid.shape[0] - 1,) if grid.mirror else (0, grid.shape[0] - 1)
 
 
 def solid_friction(level: Level) -> float:
