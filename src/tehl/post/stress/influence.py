@@ -10,6 +10,8 @@ nothing wraps around, and no depth is too shallow (docs/theory/stress.md).
 
 import math
 from collections.abc import Sequence
+from functools import reduce
+from operator import iadd
 from typing import Any
 
 import numpy as np
@@ -28,7 +30,7 @@ _PARITIES = (
     (ODD_Y, ODD_Y, ODD_Y, ODD_X, EVEN, ODD_XY),
 )
 """Symmetry of the components under a load at the origin: pressure, traction along x and along y."""
-_MIRRORED = np.array([1.0, 1.0, 1.0, -1.0, -1.0, 1.0])[:, None, None]
+_MIRRORED = np.array([1.0, 1.0, 1.0, -1.0, -1.0, 1.0])
 """Signs of the components on the other side of a plane y = const of symmetry."""
 
 Spectra = list[NDArray[Any] | None]
@@ -103,7 +105,7 @@ class HalfSpace:
         places = every[rows]
         if self.mirror:
             places = np.concatenate([2 * self.row - places[:0:-1], places])
-            values = np.concatenate([_MIRRORED[..., 0] * values[:, :0:-1], values], axis=1)
+            values = np.concatenate([_MIRRORED[:, None] * values[:, :0:-1], values], axis=1)
         if rows.step == 1:
             return values
         return np.asarray(CubicSpline(places, values, axis=1)(every))
@@ -175,7 +177,7 @@ class HalfSpace:
         )
         corners = _corners(np.asarray(x)[None, :], np.asarray(y)[:, None], depth)
         even, odd_x, odd_y, odd_xy = (
-            np.diff(np.diff(one, axis=-1) / (2.0 * math.pi), axis=-2).astype(self._kind)
+            np.diff(np.diff(one, axis=-2), axis=-1).astype(self._kind) / self._kind(2.0 * math.pi)
             for one in corners
         )
         return (
@@ -198,18 +200,34 @@ class HalfSpace:
             Of the body.
         """
         parts = (_of_pressure, _of_traction_x, _of_traction_y)
-        (ny, nx), kind = influence[0].shape[1:], np.result_type(self._kind, np.complex64)
-        total = np.zeros((6, 1 if self.mirror else 2, ny, nx), kind)
-        for spectrum, part, parities in zip(spectra, parts, _PARITIES, strict=False):
-            if spectrum is not None:
-                kernels = part(influence, poisson_ratio)
-                for k, (kernel, parity) in enumerate(zip(kernels, parities, strict=True)):
-                    total[k] += spectrum[parity] * kernel
+        acting = [
+            (spectrum, part(influence, poisson_ratio), parities)
+            for spectrum, part, parities in zip(spectra, parts, _PARITIES, strict=False)
+            if spectrum is not None
+        ]
         number = len(range(*self.rows(self.steps_of(influence)).indices(self.shape[0])))
-        other = total[:, 0] * _MIRRORED.astype(self._kind) if self.mirror else total[:, 1]
-        lines = np.concatenate([total[:, 0], other[:, -2:0:-1]], axis=1)
-        rows = ifft(lines, axis=1, overwrite_x=True)[:, :number]
-        return np.asarray(irfft(rows, 2 * self._half[1], axis=2)[..., : self.shape[1]])
+        found = np.empty((len(COMPONENTS), number, self.shape[1]), self._kind)
+        for k in range(len(COMPONENTS)):
+            total = reduce(iadd, (one[parity[k]] * kernels[k] for one, kernels, parity in acting))
+            if self.mirror:
+                found[k] = self._one_side(total[0], number, odd=_MIRRORED[k] < 0.0)
+            else:
+                found[k] = self._rows(total, number)
+        return found
+
+    def _rows(self, both: NDArray[Any], number: int) -> Array:
+        """Return the first rows of a component, of its transform for k_y >= 0 and for -k_y."""
+        lines = np.concatenate([both[0], both[1, -2:0:-1]])
+        return self._along_x(ifft(lines, axis=0, overwrite_x=True)[:number])
+
+    def _one_side(self, total: NDArray[Any], number: int, *, odd: bool) -> Array:
+        """Return the first rows of a component that is even or odd about the first of them."""
+        lines = self._along_x(1j * total if odd else total)
+        rows = _sine(lines, -2) if odd else _cosine(lines, -2)
+        return rows[:number] / (2.0 * (len(rows) - 1.0))
+
+    def _along_x(self, rows: NDArray[Any]) -> Array:
+        return np.asarray(irfft(rows, 2 * self._half[1], axis=1)[:, : self.shape[1]])
 
 
 def fast_size(number: float) -> int:

@@ -10,6 +10,9 @@ from tehl.contact.stress import Stress
 
 LEAST_SHEAR = 0.866
 """Largest shear over the root of J2: at least sqrt(3)/2, and at most one."""
+UNSURE = 1e-3
+"""Part of the largest shear that single precision may miss: where two principal stresses are equal
+the angle is wrong by the root of the precision."""
 
 
 def largest_shear(stress: Array) -> Array:
@@ -20,11 +23,12 @@ def largest_shear(stress: Array) -> Array:
     stress : (6, ...) array
         Components as in `influence.COMPONENTS`.
     """
+    stress = np.asarray(stress, float)
     return _shear(stress, _second_invariant(stress))
 
 
 def _shear(stress: Array, second: Array) -> Array:
-    """Return the largest shear stress where J2 is known."""
+    """Return the largest shear stress where J2 is known, in the precision of the components."""
     xx, yy, zz, xy, yz, zx = stress
     mean = (xx + yy + zz) / 3.0
     xx, yy, zz = xx - mean, yy - mean, zz - mean
@@ -80,7 +84,12 @@ def worst(stress: Array, settings: Stress, limit: float, weights: Array) -> Wors
     second = _second_invariant(stress)
     most = float(second.max())
     near = np.flatnonzero(second.ravel() >= LEAST_SHEAR**2 * most)
-    shear = _shear(stress.reshape(6, -1)[:, near], second.ravel()[near])
+    every, shear = (
+        stress.reshape(6, -1),
+        _shear(stress.reshape(6, -1)[:, near], second.ravel()[near]),
+    )
+    near = near[shear >= (1.0 - UNSURE) * shear.max()]
+    shear = largest_shear(every[:, near])
     row, column = np.unravel_index(near[int(np.argmax(shear))], second.shape)
     low, high = stress.min(axis=-1, keepdims=True), stress.max(axis=-1, keepdims=True)
     orthogonal = 0.5 * (high - low)[5, :, 0]
@@ -106,4 +115,6 @@ def _largest_along(stress: Array, added: Array) -> Array:
     near = root + added >= least
     found = np.where(near, added, -np.inf)
     found[near] += _shear(stress[:, near], second[near])
+    near = found >= found.max(axis=-1, keepdims=True) - UNSURE * root
+    found[near] = added[near] + largest_shear(stress[:, near])
     return np.asarray(found.max(axis=-1))

@@ -46,6 +46,8 @@ def window_of(result: Solution, pressure: Array) -> Window:
         first, last = int(inside[0]), int(inside[-1])
         if (last - first) % 2:  # every second node is one of the window
             first, last = (first, last + 1) if last + 1 < axis.size else (first + 1, last)
+        if (last - first) % 4 and 0 < first and last + 1 < axis.size:  # the middle is one of them
+            first, last = first - 1, last + 1
         slices.append(slice(first, last + 1))
     widths = result.scales.half_width_y, result.scales.half_width_x
     steps = [
