@@ -55,7 +55,7 @@ class Station:
         for name, low, high in (("h", 0.5, 1.0), ("p_x", -1.0, 1.0), ("p_y", -1.0, 1.0)):
             self.set_line(name, random.uniform(low, high, ROWS))
         motion = {"slide_x": -0.4, "slide_y": 0.3, "speed_x": 1.2, "speed_y": -0.1}
-        for name, value in ({"over_scale": 1.5} | motion).items():
+        for name, value in ({"over_scale": 1.5, "over_y": 20.0} | motion).items():
             self.set_line(name, np.full(ROWS, value))
         self.fill("ln_eta", random.uniform(-1.0, 1.0, (nodes, ROWS)))
         self.fill("rho", random.uniform(0.9, 1.1, (nodes, ROWS)))

@@ -85,13 +85,14 @@ def _of_one_row(problem: ContactProblem, options: Options) -> Options:
 def crowds_at_ends(problem: ContactProblem) -> bool:
     """Return whether the lines of the grid crowd at the ends of a roller.
 
-    The energy equation, heights, time steps and dynamics need uniform ones: only a film of flooded
-    oil alone, smooth, isothermal and steady has crowded ones; it may thin by shear.
+    Heights, time steps, dynamics and paths of surfaces across lines need uniform ones: only a film
+    of flooded oil alone, smooth and steady has crowded ones. It may thin by shear, and be heated by
+    sliding along x.
     """
     others = (problem.supply, problem.cavitation, problem.dynamics, problem.asperities)
-    if any(one is not None for one in (*others, problem.thermal)):
+    if problem.contact.type != "roller" or any(one is not None for one in others):
         return False
-    return problem.contact.type == "roller" and _is_smooth(problem)
+    return _is_smooth(problem) and (problem.thermal is None or problem.motion.is_plain)
 
 
 def _is_smooth(problem: ContactProblem) -> bool:

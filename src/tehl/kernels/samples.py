@@ -125,7 +125,7 @@ COUPLED = (
         lines=_SCRATCH.lines,
         layers=_SCRATCH.layers,
         numbers=4,
-        **_axes(1, "zeta", "weights", "changes", "change", "back", "x", "y") | _SURFACE,
+        **_axes(1, "zeta", "weights", "changes", "change", "back", "x", "y", "closer") | _SURFACE,
         **_axes(3, "fluid", "temperature", "past", "matrix", "mass", "modes"),
     ),
     _sample(reynolds.tangent_source, 0.4),

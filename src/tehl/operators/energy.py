@@ -11,7 +11,13 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 from tehl.kernels.energy.march import sweep
 from tehl.kernels.energy.records import GHOSTS, Fields, Surfaces, Terms, scratch
-from tehl.operators.heated_film import HeatedFilm, padded_rows, places_across, stress_unit
+from tehl.operators.heated_film import (
+    HeatedFilm,
+    closeness,
+    padded_rows,
+    places_across,
+    stress_unit,
+)
 from tehl.operators.surfaces import Solids
 from tehl.operators.trail import Trail, VaryingTrail
 from tehl.operators.transfer import midpoints
@@ -306,6 +312,7 @@ def _initial_fields(grid: Grid, film: HeatedFilm) -> Fields:
     fields = Fields(*(np.zeros((nx, ny)) for _ in Fields._fields))._replace(
         x=grid.x.copy(),
         y=places_across(grid, film.scaled.groups),
+        closer=closeness(grid),
         temperature=temperature,
         past=np.zeros((1, 1, 1)),
         pressing=np.zeros((1, 1)),
@@ -330,9 +337,14 @@ def pressure_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array,
     slope_x = _slope_along(pressure.T, grid.dx).T
     steps = np.gradient(grid.y, edge_order=2)[:, None] if grid.crowding else grid.dy
     slope_y = _slope_along(pressure, groups.ellipticity * steps)
-    if grid.mirror:
-        slope_y[0] = 0.0
+    slope_y[still_rows(grid)] = 0.0
     return slope_x, slope_y
+
+
+def still_rows(grid: Grid) -> list[int]:
+    """Return the stored rows through which no oil flows along y: symmetry lines and ends."""
+    last = [grid.shape[0] - 1] if grid.is_closed else []
+    return [0, *last] if grid.is_closed or grid.mirror else []
 
 
 def driving_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array, Array]:
@@ -359,8 +371,7 @@ def driving_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array, 
         rises = product > 0.0
         harmonic = np.where(rises, 4.0 * product / np.where(rises, total, 1.0) ** 2, 0.0)
         slope[1:-1] *= 1.0 + factors / (1.0 + factors) * (harmonic - 1.0)
-    if grid.mirror:
-        slope_y[0] = 0.0
+    slope_y[still_rows(grid)] = 0.0
     return slope_x, slope_y
 
 

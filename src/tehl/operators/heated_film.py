@@ -104,6 +104,22 @@ def places_across(grid: Grid, groups: Groups) -> Array:
     return np.concatenate([y, y[-1] + (y[-1] - y[-2]) * beyond])
 
 
+def closeness(grid: Grid) -> Array:
+    """Return the mean distance of rows over that at each of the padded rows [-].
+
+    Differences along y are those of uniform rows times it.
+
+    Parameters
+    ----------
+    grid : Grid
+        Whose lines may crowd.
+    """
+    found = np.ones(padded_rows(grid))
+    if grid.crowding:
+        found[: grid.shape[0]] = grid.dy / np.gradient(grid.y, edge_order=2)
+    return found
+
+
 def stress_unit(scales: Scales) -> float:
     """Return one unit of the dimensionless shear stress, eta_0 u_m R_x / a_x^2 [Pa]."""
     return scales.viscosity * scales.speed / scales.film_thickness

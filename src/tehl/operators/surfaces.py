@@ -179,6 +179,7 @@ class Solids:
         fine = min(columns, 2 * rows if grid.mirror else rows) >= COARSENED_FROM
         self.stride = 2 if fine and rows % 2 == 0 and columns % 2 == 0 else 1
         shape = (rows // self.stride + 1, columns // self.stride + 1)
+        self.between = _between(grid, shape[0]) if grid.crowding else None
         cell = (self.stride * groups.ellipticity * grid.dy, self.stride * grid.dx)
         self.sources = tuple(
             FullSource(
@@ -314,12 +315,34 @@ class Solids:
         return dict(zip(given, solution.reshape(len(given), *shape), strict=True))
 
     def _coarse(self, field: Array) -> Array:
-        """Return every ``stride``-th node of a field with y last, with y first."""
+        """Return every ``stride``-th node of a field with y last, with y first, on uniform rows."""
+        if self.between:
+            return self.between[0] @ field[:: self.stride].T
         return np.ascontiguousarray(field[:: self.stride, :: self.stride].T)
 
     def _fine(self, field: Array) -> Array:
         """Return a field of the coarser nodes on all of them, with y last."""
+        if self.between:
+            on_rows = (self.between[1] @ field).T
+            return midpoints(on_rows, self.rubbing[0].shape) if self.stride == 2 else on_rows
         return midpoints(field.T) if self.stride == 2 else field.T
+
+
+def _between(grid: Grid, rows: int) -> tuple[Array, Array]:
+    """Return the matrices of linear interpolation to uniform rows, on which sources sum, and back.
+
+    Parameters
+    ----------
+    grid, rows : Grid, int
+        With lines that crowd; number of uniform rows over the same length.
+    """
+    y = grid.y
+    uniform = np.linspace(y[0], y[-1], rows)
+    there, back = (
+        np.array([np.interp(wanted, places, one) for one in np.eye(places.size)]).T
+        for wanted, places in ((uniform, y), (y, uniform))
+    )
+    return there, back
 
 
 def _streams(

@@ -104,7 +104,7 @@ def _convection(
     ghosts = (i + GHOSTS, k, j + GHOSTS)
     forward = dense * abs(here.u) * terms.over_x
     diagonal, rest = along_x(terms, fields.temperature, forward, here.u, ghosts)
-    sideways = dense * abs(here.v) * terms.over_y
+    sideways = dense * abs(here.v) * line.over_y
     more, brought = along_y(terms, fields.temperature, sideways, here.v, ghosts)
     diagonal = diagonal + more
     rest = rest + brought

@@ -157,14 +157,14 @@ def cross_flow(model: Model, work: Work, place: Place) -> None:
     wall, so that it vanishes at both.
     """
     layers, terms, zeta = work.layers[place.block], model.terms, model.across.zeta
-    n, i, j = layers.shape[0], place.i, LANES * place.block
+    n, i, j, line = layers.shape[0], place.i, LANES * place.block, work.lines[place.block]
     end = 0.0 * layers[0].through
     for k in range(n):
         now = work.mass[i % 3, k, lanes(j)]
         old, older = work.mass[(i + 2) % 3, k, lanes(j)], work.mass[(i + 1) % 3, k, lanes(j)]
         sideways = work.mass_y[k, lanes(j + 2)] - work.mass_y[k, lanes(j)]
         end = -terms.over_x * (terms.w0 * now + terms.w1 * old + terms.w2 * older)
-        end = end - 0.5 * terms.over_y * sideways
+        end = end - 0.5 * line.over_y * sideways
         here = layers[k]
         here.through = end
     for k in range(n):

@@ -52,6 +52,7 @@ def _load_block(model: Model, fields: Fields, work: Work, place: Place) -> None:
     line.tau_x = fields.tau_x[i, rows]
     line.tau_y = fields.tau_y[i, rows]
     terms, x, y = model.terms, fields.x[i], fields.y[rows]
+    line.over_y = terms.over_y * fields.closer[rows]
     line.slide_x = terms.slide - terms.spin * y
     line.slide_y = terms.slide_y + terms.spin * x
     line.speed_x = terms.speed - terms.spin_1 * y

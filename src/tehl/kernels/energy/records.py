@@ -25,7 +25,7 @@ LINE = np.dtype(
         for name in (
             *("p", "h", "p_x", "p_y", "p_t", "capacity", "conductivity", "h2_over_k", "over_scale"),
             *("climb_x", "climb_y", "sheared", "tau_x", "tau_y", "thins", "excess_y", "pull"),
-            *("slide_x", "slide_y", "speed_x", "speed_y"),
+            *("slide_x", "slide_y", "speed_x", "speed_y", "over_y"),
         )
     ]
     + [("terms", np.float64, (TERMS, LANES))]
@@ -34,7 +34,7 @@ LINE = np.dtype(
 conductivity over those at ambient pressure, h^2/k, one over the stress scale; slopes that compress;
 part of the shear heat; mid-film stress; whether the oil thins; largest relative excess of the
 tangent fluidity along y; sum of share times temperature; (u2 - u1)/u_m and u1/u_m at these places,
-both components; coefficients of the laws at these pressures."""
+both components; one over the distance of rows; coefficients of the laws at these pressures."""
 LAYER = np.dtype(
     [
         (name, np.float64, (LANES,))
@@ -107,8 +107,8 @@ class Terms(NamedTuple):
     ``peclet, compression, brinkman``: factors of convection, compression and shear heat;
     ``poiseuille`` is 12/lambda; ``slide, slide_y`` (u2 - u1)/u_m and ``speed, speed_y`` u1/u_m at
     the centre; ``spin`` (omega_2 - omega_1) a_x/u_m, ``spin_1`` that of surface 1; ``plain`` 1
-    where all of it is along x; ``over_x, over_y`` 1/dx and 1/(kappa dy); ``over_t`` weight of the
-    present in the time derivative, 0 if steady; ``w0, w1, w2`` upstream weights; ``mirror``
+    where all of it is along x; ``over_x, over_y`` 1/dx and the mean 1/(kappa dy); ``over_t`` weight
+    of the present in the time derivative, 0 if steady; ``w0, w1, w2`` upstream weights; ``mirror``
     whether row 0 is a symmetry line; ``mean`` 0 local properties, 1 mean ones in Reynolds, 2 mean
     ones everywhere; ``inlet`` temperature; ``heat`` 0 keeps the temperature.
     """
@@ -174,7 +174,8 @@ class Surfaces(NamedTuple):
 class Fields(NamedTuple):
     """Fields of the film.
 
-    In: places ``x`` (nx,) and ``y`` (ny,) in a_x; ``p, h`` (nx, ny); ``px, py`` slopes of the
+    In: places ``x`` (nx,) and ``y`` (ny,) in a_x; ``closer`` (ny,) mean distance of rows over that
+    here; ``p, h`` (nx, ny); ``px, py`` slopes of the
     pressure that drive the flow, ``climb_x, climb_y`` those that compress the oil; ``capacity,
     conductivity`` ratios to those at ambient pressure, ``over_scale`` one over the stress scale,
     ``sheared`` 1, or 0 where surfaces rub in place of the oil. In and out:
@@ -189,6 +190,7 @@ class Fields(NamedTuple):
 
     x: Array
     y: Array
+    closer: Array
     p: Array
     h: Array
     px: Array

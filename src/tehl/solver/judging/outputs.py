@@ -123,14 +123,16 @@ def heat_balance(state: FilmState) -> HeatBalance:
     pressure, along, sideways = view("p"), view("enthalpy_x"), view("enthalpy_y")
     carried = np.zeros_like(pressure)
     carried[1:-1] += 0.5 * terms.over_x * (along[2:] - along[:-2])
-    carried[:, 1:-1] += 0.5 * terms.over_y * (sideways[:, 2:] - sideways[:, :-2])
+    over_y = terms.over_y * state.fields.closer[: grid.shape[0]]
+    carried[:, 1:-1] += 0.5 * over_y[1:-1] * (sideways[:, 2:] - sideways[:, :-2])
     if terms.mirror and grid.ny > 1:
-        carried[:, 0] += terms.over_y * sideways[:, 1]
+        carried[:, 0] += over_y[0] * sideways[:, 1]
     area = np.zeros_like(pressure)
     area[inner] = 2.0 if terms.mirror else 1.0
     if terms.mirror:
         area[1:-1, 0] = 1.0
     scales, skew = state.film.scaled.scales, state.film.scaled.groups.skew
+    area /= state.fields.closer[: grid.shape[0]]
     area *= (wet_part(pressure.T) * zone_of(grid, skew)).T  # of the film under pressure in the zone
     area *= grid.dx * grid.dy * scales.half_width_x * scales.half_width_y * state.film.flux_unit
     powers = (view("shear"), view("work"), *state.fluxes, carried)
