@@ -102,6 +102,7 @@ class GridIteration:
             negligible=self._negligible(),
             steady=method.steady,
             part=EXTRAPOLATED_PART if self.options.extrapolate else 1.0,
+            coupled=self.coupling.state is not None,
         )
         self.traces.append(trace)
         begins = len(levels) - 1 == self.roughness.first  # the first level with the heights

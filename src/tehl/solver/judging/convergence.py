@@ -126,7 +126,7 @@ class GridTrace:
     accepted: where surfaces touch, single nodes change by more, and ``largest_change`` is that of
     the mean. A grid on which the iteration ``diverged`` is not compared with others. ``outputs``
     are the fields to extrapolate; then the iteration error may be ``part`` of what it may be
-    without.
+    without. ``coupled`` says whether the film is heated or thins on this grid.
     """
 
     central: Trace = field(default_factory=Trace)
@@ -143,6 +143,7 @@ class GridTrace:
     diverged: bool = False
     outputs: Outputs | None = None
     part: float = 1.0
+    coupled: bool = False
 
     def __post_init__(self) -> None:
         self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / self.damping))

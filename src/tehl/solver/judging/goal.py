@@ -96,27 +96,38 @@ def _by_grids(
         domain = far_field_error(scaled.entering, edges) + entry_error(scaled, edges)
         domain += spin_error(scaled)
     if not roughness.is_rough:
-        comparable = [trace for trace in traces if not trace.diverged]
-        if len(comparable) < 2:
+        compared = comparable(traces)
+        if len(compared) < 2:
             return None
         expected = _expected_bar(hierarchy, level)
         is_flooded = scaled.problem.supply is None
         return error_estimate(
-            comparable,
+            compared,
             order,
             domain,
             newtonian=newtonian,
             least=expected,
             most=MOST_EXPECTED * expected if expected and is_flooded else math.inf,
-            extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == comparable[-2:],
+            extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == compared[-2:],
             kind=hierarchy.scaled.problem.contact.type,
         )
     # grids that resolve the same heights
-    comparable = [trace for trace in traces[roughness.first_comparable :] if not trace.diverged]
-    if len(comparable) < 2:
+    compared = comparable(traces[roughness.first_comparable :])
+    if len(compared) < 2:
         points, amplitude = roughness.points, roughness.amplitude
         return single_grid_estimate(traces[-1], level.grid.dx, points, amplitude, domain)
-    return error_estimate(comparable, order, domain, rough=True, newtonian=newtonian)
+    return error_estimate(compared, order, domain, rough=True, newtonian=newtonian)
+
+
+def comparable(traces: list[GridTrace]) -> list[GridTrace]:
+    """Return the grids that did not diverge, whose films make error bars, coarsest first.
+
+    They are the last two where the third last is isothermal and the last one is not.
+    """
+    found = [trace for trace in traces if not trace.diverged]
+    if len(found) > 2 and found[-3].coupled != found[-1].coupled:
+        return found[-2:]
+    return found
 
 
 def _expected_bar(hierarchy: Hierarchy, level: Level) -> float:
