@@ -121,6 +121,7 @@ def test_wrong_headings_are_one_sentence(tmp_path, template):
     path = tmp_path / "list.csv"
     for text, words in (
         ("lod [N],speed\n1,2\n", 'the column "lod [N]" is not known; did you mean load'),
+        ("load [N],n [1/min]\n1,2\n", 'values such as "500 rpm at 40 mm" below u_m'),
         ("load [N],force [N]\n1,2\n", "two columns state contact.load"),
         ("load [furlong]\n1\n", 'the unit of the column "load [furlong]" is not known'),
         ("load [N]\n", "has no contacts"),

@@ -9,7 +9,7 @@ from typing import Any
 from tehl.api.problem import ContactProblem
 from tehl.base.errors import InputError
 from tehl.base.keys import key_paths
-from tehl.base.units import is_unit
+from tehl.base.units import is_per_turn, is_unit
 from tehl.contact.options import Options
 from tehl.io.case import plain_value
 
@@ -151,4 +151,9 @@ def check_columns(columns: Sequence[Column], lines: Sequence[Sequence[Any]]) -> 
             word = re.split(r"[\[(/]", one.heading)[0].strip().lower()
             near = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
             guess = f"did you mean {near[0]}?" if near else "take a key of the case file"
+            if is_per_turn(one.unit):
+                guess = (
+                    "a contact has speeds, or a rotational speed with the radius at which the "
+                    'surfaces move: take u_m [m/s], or values such as "500 rpm at 40 mm" below u_m'
+                )
             raise InputError(f'the column "{one.heading}" is not known; {guess}')

@@ -6,6 +6,7 @@ heights in parts, and finer grids start from the rough film of the next coarser 
 (docs/theory/numerics-rough.md).
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -32,6 +33,10 @@ FIRST_INCREMENT, LEAST_INCREMENT = 0.25, 0.02
 MOST_NEWTON_STEPS, QUICK_STEPS, SLOW_STEPS, INCREMENT_FACTOR = 12, 6, 9, 0.25
 """Most Newton steps per increment, steps up to which the next increment is larger and beyond which
 it is smaller, and the factor on an increment that failed."""
+
+
+LARGEST_ROUGH_STEP = 10.0
+"""Change of pressure per cycle beyond which no iteration between rough surfaces recovers."""
 
 
 class TouchingError(DivergedError):
@@ -116,6 +121,34 @@ class Roughness:
     def is_rough(self) -> bool:
         """Whether the surfaces have heights."""
         return self.first < len(self.levels)
+
+    @property
+    def largest_step(self) -> float:
+        """Change of a pressure per cycle beyond which no iteration recovers, in Hertz pressures."""
+        return LARGEST_ROUGH_STEP if self.is_rough else math.inf
+
+    @property
+    def serves_others(self) -> bool:
+        """Whether another strategy may go on from its grids: it raises no heights on another."""
+        return not self.is_rough
+
+    def spare(self, allowed: float) -> float:
+        """Return the iteration error that may stay: none between rough surfaces, else ``allowed``.
+
+        Their error bars are those of grids that differ in much.
+        """
+        return 0.0 if self.is_rough else allowed
+
+    def film_part(self, minimum: float, smooth: float) -> float:
+        """Return the minimum film over the film to which its error is relative [-].
+
+        Parameters
+        ----------
+        minimum, smooth : float
+            Minimum film, and the central one of the smooth contact: itself between smooth surfaces,
+            the other between rough ones.
+        """
+        return max(minimum, 0.0) / smooth if self.is_rough else 1.0
 
     def is_on(self, levels: Sequence[Level]) -> bool:
         """Return whether the last of ``levels`` has the heights."""

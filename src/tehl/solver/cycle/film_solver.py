@@ -156,7 +156,7 @@ class FilmSolver(GridIteration):
 
     def _keep(self, levels: Sequence[Level]) -> None:
         """Note that the last of ``levels`` is solved, for other strategies."""
-        if not self.roughness.is_rough:
+        if self.roughness.serves_others:
             traces, heat = tuple(replace(one) for one in self.traces), self.coupling.kept(levels)
             found = Solved(levels[-1].grid, traces, levels[-1].state(), heat)
             self.solved = (*self.solved, found)
@@ -206,10 +206,8 @@ class FilmSolver(GridIteration):
 
         Itself between smooth surfaces, the central film of the smooth contact between rough ones.
         """
-        if not self.roughness.is_rough:
-            return 1.0
-        part = max(float(self.finest.film.h.min()), 0.0) / self.hierarchy.expected_film
-        return min(part, self.finest.share.largest_part)
+        least, smooth = float(self.finest.film.h.min()), self.hierarchy.expected_film
+        return min(self.roughness.film_part(least, smooth), self.finest.share.largest_part)
 
     def _needs_finer_grid(self, *, force: bool) -> bool:
         """Return whether a finer grid follows: the film is not accurate, or does not converge.
@@ -230,12 +228,9 @@ class FilmSolver(GridIteration):
 
     def _is_last(self, levels: Sequence[Level]) -> bool:
         """Return whether a grid is accurate enough, or no finer one may follow."""
-        if not (self.goal.is_open and self.accepted and len(levels) > GRIDS_WITHOUT_BARS):
+        if not (self.goal.may_end_early and self.accepted and len(levels) > GRIDS_WITHOUT_BARS):
             return False
-        # roughness, also such that moves in later, needs the planned grid
-        if self.hierarchy.scaled.problem.is_rough or self.coupling.is_pending:
-            return False
-        if not is_resolved(levels[-1]):
+        if self.coupling.is_pending or not is_resolved(levels[-1]):
             return False
         return self.goal.is_met(self.errors()) or not self.goal.may_refine(levels[-1])
 
@@ -304,7 +299,7 @@ class FilmSolver(GridIteration):
         first, last = trace.reports[0], trace.reports[-1]
         # fewer cycles than MOST_CYCLES: it converged before
         falling = last.cycle < MOST_CYCLES or last.residual < self.options.tolerance
-        if self.strategy.newton or self.coupling.damping < 1.0:
+        if self.strategy.newton or trace.damping < 1.0:
             # it may start so close that its residual cannot halve; heat is added in increments
             falling = falling or film_converged(trace, self._coarser_trace())
         falling = falling or last.residual < 0.5 * first.residual

@@ -15,7 +15,7 @@ from tehl.solver.cycle.continuation import Roughness, TouchingError
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
-from tehl.solver.cycle.methods import MOST_CYCLES, Cycles, Visit, method_of
+from tehl.solver.cycle.methods import Cycles, Visit, method_of
 from tehl.solver.cycle.start import pose_problem
 from tehl.solver.judging.balance import LARGEST_OIL_ERROR, Balance
 from tehl.solver.judging.convergence import (
@@ -34,10 +34,6 @@ from tehl.solver.judging.measures import film_numbers, measured, nodal_film
 from tehl.solver.monitor import Monitor
 from tehl.solver.physics.thermal import Coupling
 
-MOST_DOUBLINGS = 4
-"""Most doublings of `MOST_CYCLES`, one per coarser grid, where temperatures converge slowly."""
-HERTZ_CYCLES = 2
-"""Cycles after which a grid that started from the Hertz pressure has a film."""
 FREE_ORDERS = 4
 """Cycles after which nodes keep the order with which they pass on oil: else it may change with the
 meniscus, and the meniscus with it."""
@@ -45,8 +41,6 @@ EXTRAPOLATED_PART = 0.15
 """Iteration error accepted on grids that are extrapolated, over that accepted on others."""
 COMPARED_GRIDS = 3
 """Grids whose values make error bars."""
-ISOTHERMAL_CYCLES = 4
-"""Cycles before damped heat begins."""
 
 
 class GridIteration:
@@ -122,7 +116,7 @@ class GridIteration:
             strategy=self.strategy,
             roughness=self.roughness,
             damping=self.coupling.damping,
-            is_damped=self.coupling.state is not None and self.coupling.damping < 1.0,
+            is_damped=self.coupling.is_damped,
         )
 
     def _most_steps(self, levels: Sequence[Level], method: Cycles) -> int:
@@ -130,12 +124,7 @@ class GridIteration:
         finer = len(self.levels) - len(levels)
         if not finer:
             return self.strategy.patience * self.options.max_cycles
-        doublings = 0
-        if self.coupling.state is not None:
-            # smooth parts of the temperature may converge slowly: on coarse grids that costs little
-            damped = self.coupling.damping < 1.0
-            doublings = MOST_DOUBLINGS if damped else min(finer, MOST_DOUBLINGS)
-        return method.most(doublings)
+        return method.most(self.coupling.doublings(finer))
 
     def _measure(self, levels: Sequence[Level]) -> None:
         """Record further values of the last of ``levels``."""
@@ -166,12 +155,11 @@ class GridIteration:
         if not self.balance.is_settled:
             return stalled(trace, self.strategy.patience)
         if not finest:
-            done = film_converged(trace, coarser)
-            if self.coupling.state is None or len(trace.reports) < MOST_CYCLES:
-                return done and temperature_converged(trace, coarser)
-            return (done and temperature_converged(trace, coarser)) or stalled(trace, 2)
-        if self.goal.is_open and not self.roughness.is_rough:
-            trace.negligible = max(self._negligible(), self.goal.spare(self.errors()))
+            done = film_converged(trace, coarser) and temperature_converged(trace, coarser)
+            return done or stalled(trace, self.coupling.patience)
+        trace.negligible = max(
+            self._negligible(), self.roughness.spare(self.goal.spare(self.errors()))
+        )
         done = self.balance.is_kept and must_stop(trace, coarser, self.options)
         if not done and self.strategy.gives_up and recedes(trace):
             return True
@@ -195,11 +183,7 @@ class GridIteration:
         Isothermal cycles come first where the film is not in balance: it would flow and heat far
         too much. Return their number.
         """
-        cycles = 0
-        if self.coupling.is_pending and self.strategy.damping < 1.0:
-            cycles = ISOTHERMAL_CYCLES
-        elif self.coupling.is_pending and self.from_hertz:
-            cycles = HERTZ_CYCLES
+        cycles = self.coupling.cycles_before(from_hertz=self.from_hertz)
         for number in range(1, cycles + 1):
             self._iteration(levels, partial(self.hierarchy.cycle, levels), number)
         finer = len(self.levels) - len(levels)
@@ -289,5 +273,5 @@ class GridIteration:
             temperature_rise=heating[1],
             mean_change=float(np.abs(before).sum() / (level.pressure.sum() or 1.0)),
         )
-        check_divergence(report, self.hierarchy.expected_film, rough=self.roughness.is_rough)
+        check_divergence(report, self.hierarchy.expected_film, self.roughness.largest_step)
         return report

@@ -52,8 +52,6 @@ MEAN_CHANGE, KELVIN_CHANGE = 1e-4, 3e-3
 temperature [K], at which ``accuracy = "change"`` stops; 3 mK are 1e-5 of the inlet temperature."""
 RUNAWAY = 100.0
 """Load error, and central film over that by formula or 1, beyond which no iteration recovers."""
-LARGEST_ROUGH_STEP = 10.0
-"""Change of pressure per cycle beyond which no iteration between rough surfaces recovers."""
 ROUNDING_CHANGE = 1e-12
 """Relative iteration error of the film that is rounding: a boundary film is the same on all."""
 STALL_CYCLES, STALL_FACTOR = 8, 0.5
@@ -66,7 +64,7 @@ class DivergedError(ArithmeticError):
     """Runaway or non-finite unknowns, a failed step, or a coarser grid that is not accepted."""
 
 
-def check_divergence(report: CycleReport, expected_film: float, *, rough: bool) -> None:
+def check_divergence(report: CycleReport, expected_film: float, largest_step: float) -> None:
     """Check that an iteration may still converge.
 
     Parameters
@@ -75,8 +73,8 @@ def check_divergence(report: CycleReport, expected_film: float, *, rough: bool) 
         Of the last cycle.
     expected_film : float
         Central film H; `RUNAWAY` times it is too thick.
-    rough : bool
-        Whether the change of the pressure is limited too.
+    largest_step : float
+        Change of a pressure beyond which no iteration recovers, in Hertz pressures.
 
     Raises
     ------
@@ -85,9 +83,7 @@ def check_divergence(report: CycleReport, expected_film: float, *, rough: bool) 
     """
     largest = RUNAWAY * max(expected_film, 1.0)
     numbers = abs(report.load_error) < RUNAWAY and report.film_central < largest
-    if not (np.isfinite(report.residual) and numbers):
-        raise DivergedError
-    if rough and not report.change < LARGEST_ROUGH_STEP:
+    if not (np.isfinite(report.residual) and numbers and report.change < largest_step):
         raise DivergedError
 
 
@@ -297,20 +293,20 @@ def touching_converged(now: GridTrace, coarser: GridTrace) -> bool:
     return shares.iteration_error() <= max(discretisation / 3.0, SHARE_ERROR)
 
 
-def stalled(now: GridTrace, patience: int = 1) -> bool:
+def stalled(now: GridTrace, patience: float = 1) -> bool:
     """Whether the residual has not halved over the last cycles.
 
     Parameters
     ----------
     now : GridTrace
         Cycles on this grid.
-    patience : int
+    patience : float
         Factor on the 8 cycles that are considered.
     """
     residuals, cycles = [report.residual for report in now.reports], patience * STALL_CYCLES
     if len(residuals) <= cycles:
         return False
-    return residuals[-1] > STALL_FACTOR * residuals[-1 - cycles]
+    return residuals[-1] > STALL_FACTOR * residuals[-1 - int(cycles)]
 
 
 def recedes(now: GridTrace) -> bool:

@@ -169,6 +169,14 @@ class Goal:
         return self.options.points == "auto"
 
     @property
+    def may_end_early(self) -> bool:
+        """Whether a grid coarser than the planned one may be the last.
+
+        Roughness, also such that moves in later, needs the planned grid.
+        """
+        return self.is_open and not self.scaled.problem.is_rough
+
+    @property
     def negligible(self) -> float:
         """Relative iteration error of the film that is always accepted [-]."""
         return NEGLIGIBLE_ITERATION_ERROR * self.target if self.is_open else 0.0
@@ -181,7 +189,7 @@ class Goal:
         errors : ErrorEstimate or None
             Estimates on that grid after its last cycle.
         """
-        if errors is None:
+        if errors is None or not self.is_open:
             return 0.0
         others = errors.central - errors.iteration_central
         if errors.minimum_has_limit and not self.of_central:

@@ -5,6 +5,7 @@ and density, which are constant during a cycle and injected to the coarser grids
 (docs/theory/numerics-thermal.md on the coupling with the film).
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -43,6 +44,13 @@ UNFINISHED = 100.0
 """Change of temperature [K] reported for a sweep below the full sliding speed."""
 CARRIED = ("temperature", "tau_x", "tau_y")
 """Fields of the film that a sweep starts from."""
+HERTZ_CYCLES, ISOTHERMAL_CYCLES = 2, 4
+"""Isothermal cycles that come first: on a grid that started from the Hertz pressure, until it has a
+film, and before damped heat."""
+MOST_DOUBLINGS = 4
+"""Most doublings of the cycles on a coarser grid, one for each grid between it and the finest."""
+COARSE_PATIENCE = 2
+"""Factor on the cycles in which the residual of a coarser heated grid has to halve."""
 FIRST_CHANGE = 8.0
 """Change of temperature [K] at which the first sweeps end."""
 
@@ -145,6 +153,39 @@ class Coupling:
     def is_pending(self) -> bool:
         """Whether heat or thinning are still to begin."""
         return self.film is not None and self.state is None
+
+    @property
+    def is_damped(self) -> bool:
+        """Whether changes of heat or thinning are damped, and have begun."""
+        return self.state is not None and self.damping < 1.0
+
+    @property
+    def patience(self) -> float:
+        """Factor on the cycles in which the residual of a coarser grid has to halve."""
+        return math.inf if self.state is None else COARSE_PATIENCE
+
+    def cycles_before(self, *, from_hertz: bool) -> int:
+        """Return the isothermal cycles on a grid before heat or thinning begin.
+
+        A film that is not in balance would flow and heat far too much.
+
+        Parameters
+        ----------
+        from_hertz : bool
+            Whether the grid started from the Hertz pressure.
+        """
+        if not self.is_pending:
+            return 0
+        return ISOTHERMAL_CYCLES if self.damping < 1.0 else HERTZ_CYCLES * from_hertz
+
+    def doublings(self, finer: int) -> int:
+        """Return how many times the cycles on a coarser grid are doubled; ``finer`` grids follow.
+
+        Smooth parts of the temperature may converge slowly: on coarse grids that costs little.
+        """
+        if self.state is None:
+            return 0
+        return MOST_DOUBLINGS if self.is_damped else min(finer, MOST_DOUBLINGS)
 
     def update(self, levels: Sequence[Level]) -> tuple[float, float]:
         """Sweep; return the largest change, and the largest rise or fall of the temperature [K].
