@@ -15,8 +15,7 @@ from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
 from tehl.operators.reynolds import Entrainment
 from tehl.result.solution import Status
 from tehl.solver import steady
-from tehl.solver.cycle import methods
-from tehl.solver.cycle.continuation import MOST_NEWTON_STEPS, RAISED_RESIDUAL, raise_by_newton
+from tehl.solver.cycle.continuation import MOST_NEWTON_STEPS, RAISED_RESIDUAL, Homotopy
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.ladder import BETWEEN_ROUGH, Strategy
 from tehl.solver.cycle.level import Level
@@ -232,18 +231,18 @@ def test_heights_are_raised_on_the_finest_grid_if_the_start_from_the_coarser_fil
     monkeypatch.setattr(steady, "ladder", lambda *_, **__: (NEWTON,))
     problem, options = wavy((57.21, 10.52), (0.2, 1.0, 0.0)), Options(points=65, domain=DOMAIN)
     raised: list[tuple[int, bool]] = []
-    search = Newton.line_search
+    search, run = Newton.line_search, Homotopy.run
 
-    def noted(level: Level, iterate: Any, refresh: Any, *, finest: bool) -> None:
-        raised.append((level.grid.nx, finest))
-        raise_by_newton(level, iterate, refresh, finest=finest)
+    def noted(self: Homotopy, iterate: Any) -> None:
+        raised.append((self.level.grid.nx, self.finest))
+        run(self, iterate)
 
     def failing(self: Newton, change: Any) -> float:
         if self.level.grid.nx == 65 and raised[-1][0] < 65:
             raise DivergedError
         return search(self, change)
 
-    monkeypatch.setattr(methods, "raise_by_newton", noted)
+    monkeypatch.setattr(Homotopy, "run", noted)
     plain = finished(problem, options)
     assert raised == [(33, False)]
     monkeypatch.setattr(Newton, "line_search", failing)

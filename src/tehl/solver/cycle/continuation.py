@@ -28,13 +28,8 @@ COMPARABLE = 8.0
 """Nodes per wave from which the film of a grid is comparable with that of the next finer one."""
 RAISED_RESIDUAL = 1e-4
 """Residual at which Newton's method continues with the next part of the heights."""
-FIRST_INCREMENT, LEAST_INCREMENT = 0.25, 0.02
-"""First increment of the heights in Newton's method, and the smallest one before it fails."""
-MOST_NEWTON_STEPS, QUICK_STEPS, SLOW_STEPS, INCREMENT_FACTOR = 12, 6, 9, 0.25
-"""Most Newton steps per increment, steps up to which the next increment is larger and beyond which
-it is smaller, and the factor on an increment that failed."""
-
-
+MOST_NEWTON_STEPS = 12
+"""Most steps of Newton's method per increment of the heights."""
 LARGEST_ROUGH_STEP = 10.0
 """Change of pressure per cycle beyond which no iteration between rough surfaces recovers."""
 
@@ -182,10 +177,8 @@ class Roughness:
         return True
 
 
-def raise_by_newton(
-    level: Level, iterate: Callable[[], float], refresh: Callable[[], None], *, finest: bool
-) -> None:
-    """Raise the heights of ``level`` by increments, each solved by Newton's method.
+class Homotopy:
+    """Raises the heights of a level by increments, each of them solved by Newton's method.
 
     The increment adapts to the number of Newton steps. Each solve starts from a linear
     extrapolation of the last two films in the amplitude (a secant predictor).
@@ -194,52 +187,76 @@ def raise_by_newton(
     ----------
     level : Level
         Starts from the smooth film.
-    iterate : callable
-        Performs and reports a Newton step; returns the residual.
     refresh : callable
-        Discards the preconditioner, so that the next step computes a new one.
+        Discards what Newton's method keeps of earlier steps.
     finest : bool
         Whether this is the finest level. On a coarser one a film that is not positive is accepted:
         it may be positive on the next.
-
-    Raises
-    ------
-    TouchingError
-        When the film of the finest level is not positive with part of the heights.
-    DivergedError
-        When an increment of `LEAST_INCREMENT` does not converge.
     """
-    before, known, size = None, (0.0, unknowns(level)), FIRST_INCREMENT
-    while known[0] < 1.0:
-        part = min(known[0] + size, 1.0)
-        level.apply_heights(part)
-        set_unknowns(level, known[1] if before is None else _extrapolate(before, known, part))
-        steps = _steps_to(RAISED_RESIDUAL, iterate)
-        if steps is None:
-            refresh()  # the preconditioner belongs to the film that diverged
-            size *= INCREMENT_FACTOR
-        else:
-            before, known = known, (part, unknowns(level))
-            size *= 1.5 if steps <= QUICK_STEPS else 0.7 if steps > SLOW_STEPS else 1.0
-            if finest and part < 1.0 and not level.film.h.min() > 0.0:
-                raise TouchingError(part)
-        if size < LEAST_INCREMENT:
-            raise DivergedError
 
+    first, least = 0.25, 0.02
+    """First increment of the heights, and the smallest one before it fails."""
+    most_steps, quick, slow = MOST_NEWTON_STEPS, 6, 9
+    """Most steps per increment, steps up to which the next one is larger, and beyond which it is
+    smaller."""
+    larger, smaller, failed = 1.5, 0.7, 0.25
+    """Factors on the next increment then, and on one that failed."""
 
-def _steps_to(residual: float, iterate: Callable[[], float]) -> int | None:
-    """Iterate until ``residual`` is reached; return the number of steps, None on failure."""
-    for number in range(1, MOST_NEWTON_STEPS + 1):
-        try:
-            if iterate() < residual:
-                return number
-        except ArithmeticError:
-            return None
-    return None
+    def __init__(self, level: Level, refresh: Callable[[], None], *, finest: bool = False) -> None:
+        self.level, self.refresh, self.finest = level, refresh, finest
+        self.known = self.before = (0.0, unknowns(level))
 
+    def run(self, iterate: Callable[[], float]) -> None:
+        """Raise all heights by ``iterate``, which performs a step and returns the residual.
 
-def _extrapolate(before: tuple[float, Array], known: tuple[float, Array], part: float) -> Array:
-    """Return the unknowns at ``part`` by linear extrapolation; cavities stay."""
-    slope = (known[1] - before[1]) / (known[0] - before[0])
-    onward = known[1] + (part - known[0]) * slope
-    return np.where(known[1] == 0.0, 0.0, onward)
+        Raises
+        ------
+        TouchingError
+            When the film of the finest level is not positive with part of the heights.
+        DivergedError
+            When the smallest increment does not converge.
+        """
+        part, size = 0.0, self.first
+        while part < 1.0:
+            wanted = min(part + size, 1.0)
+            self.level.apply_heights(wanted)
+            self.begin(wanted)
+            steps = self._steps(iterate)
+            if steps is None:
+                self.refresh()  # they belong to the film that diverged
+                size *= self.failed
+            else:
+                part = wanted
+                self.keep(part)
+                size *= self.larger if steps <= self.quick else 1.0
+                size *= self.smaller if steps > self.slow else 1.0
+            if size < self.least:
+                raise DivergedError
+
+    def begin(self, part: float) -> None:
+        """Set the start with a part of the heights."""
+        set_unknowns(self.level, self.predicted(part))
+
+    def predicted(self, part: float) -> Array:
+        """Return the unknowns with a part of the heights by the secant; cavities stay."""
+        (earlier, first), (later, last) = self.before, self.known
+        if later == 0.0:
+            return last
+        onward = last + (part - later) * (last - first) / (later - earlier)
+        return np.where(last == 0.0, 0.0, onward)
+
+    def keep(self, part: float) -> None:
+        """Note the solution with a part of the heights."""
+        self.before, self.known = self.known, (part, unknowns(self.level))
+        if self.finest and part < 1.0 and not self.level.film.h.min() > 0.0:
+            raise TouchingError(part)
+
+    def _steps(self, iterate: Callable[[], float]) -> int | None:
+        """Iterate until `RAISED_RESIDUAL`; return the number of steps, None on failure."""
+        for number in range(1, self.most_steps + 1):
+            try:
+                if iterate() < RAISED_RESIDUAL:
+                    return number
+            except ArithmeticError:
+                return None
+        return None

@@ -15,8 +15,8 @@ from tehl.solver.cycle.anderson import Anderson
 from tehl.solver.cycle.continuation import (
     MOST_NEWTON_STEPS,
     SMOOTH_CYCLES,
+    Homotopy,
     Roughness,
-    raise_by_newton,
 )
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy
@@ -27,8 +27,8 @@ from tehl.solver.judging.convergence import LARGEST_CYCLE_CHANGE, LARGEST_ROUGH_
 from tehl.solver.physics.boundary_contact import (
     BALANCED_OVER_TOLERANCE,
     BALANCED_RESIDUAL,
+    ContactHomotopy,
     TouchingNewton,
-    raise_heights,
 )
 from tehl.solver.physics.boundary_cycle import TouchingCycle
 
@@ -175,8 +175,8 @@ class NewtonSteps(Cycles):
     def raise_heights(self, iterate: Iterate) -> None:
         """Raise the heights by increments that Newton's method can take."""
         self._smooth(iterate, self.cycle)
-        solve_part = partial(iterate, self.step)
-        raise_by_newton(self.visit.fine, solve_part, self.newton.refresh, finest=self.visit.is_last)
+        homotopy = Homotopy(self.visit.fine, self.newton.refresh, finest=self.visit.is_last)
+        homotopy.run(partial(iterate, self.step))
 
 
 class ContactCycles(Cycles):
@@ -233,7 +233,12 @@ class ContactNewton(Cycles):
         """Raise the heights by increments in which the nodes that touch can settle."""
         fine = self.visit.fine
         fine.apply_heights(0.0)
-        raise_heights(fine, self.newton, lambda: iterate(self.step))
+
+        def solve_part() -> float:
+            iterate(self.step)
+            return self.newton.residual()
+
+        ContactHomotopy(self.newton).run(solve_part)
 
 
 def method_of(visit: Visit) -> Cycles:

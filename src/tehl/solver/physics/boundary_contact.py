@@ -19,6 +19,7 @@ from scipy.sparse.linalg import MatrixRankWarning, spsolve
 from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
 from tehl.operators.jacobian import Neighbours, jacobian, neighbours_of
+from tehl.solver.cycle.continuation import Homotopy
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.linearised import conductance_slopes
 from tehl.solver.cycle.newton import one_thread
@@ -47,11 +48,6 @@ STEPS_WITH_FREE_ORDERS = 2
 CONTACT_LINEAR_RESIDUAL = 0.002
 """Relative residual of the linear equations. Those that are solved to 0.03 take a third more steps,
 as the nodes that touch follow the error."""
-MOST_CONTACT_STEPS, QUICK_STEPS, SLOW_CONTACT_STEPS, FAILED_INCREMENT_FACTOR = 14, 6, 10, 0.35
-"""Most steps per increment of the heights, steps up to which the next one is larger and beyond
-which it is smaller, and the factor on one that failed."""
-FIRST_HEIGHT_INCREMENT, LEAST_HEIGHT_INCREMENT, RAISED_RESIDUAL = 0.5, 0.01, 1e-4
-"""First and smallest increment of the heights, and residual at which the next one follows."""
 
 
 class TouchingNewton(TouchingOperators):
@@ -219,53 +215,42 @@ def with_neighbours(marked: BoolArray) -> BoolArray:
     return near
 
 
-def raise_heights(level: Level, newton: TouchingNewton, iterate: Callable[[], float]) -> None:
-    """Raise the heights from the smooth film, increment by increment.
+class ContactHomotopy(Homotopy):
+    """Raises the heights where surfaces may touch, with fluxes of first order.
 
-    Fluxes are of first order until all heights are there. Each increment starts from the solution
-    of the last one: to extrapolate both would mix the nodes that touch.
+    Each increment starts from the solution of the last one: to extrapolate both would mix the nodes
+    that touch.
 
     Parameters
     ----------
-    level : Level
-        Starts without heights.
     newton : TouchingNewton
-        Of this level.
-    iterate : callable
-        Takes one Newton step and returns the residual.
-
-    Raises
-    ------
-    DivergedError
-        When the smallest increment does not converge.
+        Of the level.
     """
-    order = newton.order
-    newton.set_order(1)
-    _solve_increment(newton, iterate)
-    part, size, known = 0.0, FIRST_HEIGHT_INCREMENT, level.state()
-    while part < 1.0:
-        wanted = min(part + size, 1.0)
-        level.apply_heights(wanted)
-        newton.refresh()
-        steps = _solve_increment(newton, iterate)
-        if steps is None:
-            level.set_state(*known)
-            size *= FAILED_INCREMENT_FACTOR
-        else:
-            known, part = level.state(), wanted
-            size *= 1.6 if steps <= QUICK_STEPS else 0.8 if steps > SLOW_CONTACT_STEPS else 1.0
-        if size < LEAST_HEIGHT_INCREMENT:
-            raise DivergedError
-    newton.set_order(order)
 
+    first, least = 0.5, 0.01
+    most_steps, quick, slow = 14, 6, 10
+    larger, smaller, failed = 1.6, 0.8, 0.35
 
-def _solve_increment(newton: TouchingNewton, iterate: Callable[[], float]) -> int | None:
-    """Iterate until the residual is `RAISED_RESIDUAL`; return the steps, None on failure."""
-    for number in range(1, MOST_CONTACT_STEPS + 1):
-        try:
-            iterate()
-        except ArithmeticError:
-            return None
-        if newton.residual() < RAISED_RESIDUAL:
-            return number
-    return None
+    def __init__(self, newton: TouchingNewton) -> None:
+        super().__init__(newton.level, newton.refresh)
+        self.newton, self.state = newton, newton.level.state()
+
+    def run(self, iterate: Callable[[], float]) -> None:
+        """Raise all heights; the orders of the fluxes are chosen again with all of them."""
+        order = self.newton.order
+        self.newton.set_order(1)
+        self._steps(iterate)
+        self.state = self.level.state()
+        super().run(iterate)
+        self.newton.set_order(order)
+
+    def begin(self, part: float) -> None:
+        """Start from the last solution."""
+        del part
+        self.level.set_state(*self.state)
+        self.refresh()
+
+    def keep(self, part: float) -> None:
+        """Note the solution."""
+        del part
+        self.state = self.level.state()
