@@ -7,6 +7,7 @@ import pytest
 from benchmarks.pairs import FEATURES, WAVE, WAYS, contact, outcome
 from scipy.integrate import quad
 
+from benchmarks import any_contacts
 from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.api.solvers import solve, solve_transient
@@ -166,6 +167,15 @@ def test_a_film_that_may_touch_is_heated_on_coarser_grids_too():
     found = solve(contact("heat", "boundary"), Options(points=129))
     rises = {one.points[0]: one.temperature_rise for one in found.history}
     assert rises[65] == pytest.approx(rises[129], rel=0.1)
+
+
+def test_the_oil_stays_balanced_while_heat_and_thinning_still_change():
+    """Oil that is solved again at a fixed film, as the heat goes on, loses the load."""
+    _, _, problem = any_contacts.contact(1, 87, tables_at_once=True)
+    steady = problem.model_copy(update={"transient": None})
+    found = solve(steady, Options(points=65, accuracy="tight", tolerance=1e-7))
+    assert found.status.converged
+    assert abs(found.history[-1].load_error) < 1e-9
 
 
 def test_a_study_of_a_transient_run_is_refused_with_a_reason():

@@ -76,7 +76,11 @@ class GridIteration:
         self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
         self.traces: list[GridTrace] = []  # of each grid, coarsest first
         self.from_hertz = False  # the present grid started from the Hertz pressure
-        self.balance = Balance(hierarchy.options, exactly=strategy.newton)
+        self.balance = Balance(
+            self.options,
+            exactly=strategy.newton,
+            is_coupled=hierarchy.scaled.problem.is_coupled,
+        )
 
     @property
     def finest(self) -> Level:

@@ -37,11 +37,15 @@ class Balance:
         Accuracy, and error to reach.
     exactly : bool
         Whether a film between surfaces that touch is solved to the last digits in any case.
+    is_coupled : bool
+        Whether heat or shear thinning change the flow with each sweep: then to the tolerance.
     """
 
-    def __init__(self, options: Options, *, exactly: bool) -> None:
+    def __init__(self, options: Options, *, exactly: bool, is_coupled: bool) -> None:
         self.options, self.is_tight = options, options.accuracy == "tight"
         self.largest = LARGEST_MASS_ERROR if exactly or self.is_tight else CYCLE_MASS_ERROR
+        if is_coupled:
+            self.largest = max(self.largest, options.tolerance)
         self.is_settled = True  # the meniscus is stationary, and sections pass the same oil
         self.is_kept = True  # a tight solve with asperities neither makes nor loses oil
         self.oil_error = 0.0  # relative change of the flux between sections

@@ -90,9 +90,7 @@ class TouchingNewton(TouchingOperators):
         Raises DivergedError when the linear equations have no finite solution.
         """
         level = self.level
-        if self.is_balanced:
-            if level.factors is not None:  # heat and thinning still change a little
-                close_balance(level)
+        if self.is_balanced and level.factors is None:
             return 1.0
         level.update()
         if self.free_steps > 0:

@@ -92,9 +92,7 @@ class TouchingCycle:
 
         Raises DivergedError when the nodes that touch do not settle.
         """
-        if self.is_balanced:
-            if self.level.factors is not None:  # heat and thinning still change a little
-                close_balance(self.level)
+        if self.is_balanced and self.level.factors is None:
             return
         self.level.update()
         indented = self._respond()
