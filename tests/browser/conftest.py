@@ -3,7 +3,6 @@
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -23,25 +22,13 @@ PATIENCE = 60_000
 """Milliseconds for what is expected; a busy machine is slow."""
 
 
-def port_apart():
-    """Return the option of a free port; the first process of tests takes the usual one.
-
-    Two pages that begin at once would both take it.
-    """
-    if os.environ.get("PYTEST_XDIST_WORKER", "gw0") == "gw0":
-        return ()
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return "--port", str(probe.getsockname()[1])
-
-
 class Served:
     """A process of `tehl explore`."""
 
     def __init__(self, *arguments, folder):
         self.log = (folder / "explore.log").open("w+")
         command = [sys.executable, "-u", "-m", "tehl", "explore", "--no-browser"]
-        command += [*arguments, *(() if "--port" in arguments else port_apart())]
+        command += arguments
         environment = os.environ | {"TMPDIR": str(folder)}
         environment.pop("PYTEST_CURRENT_TEST", None)  # NiceGUI would not serve
         self.process = subprocess.Popen(

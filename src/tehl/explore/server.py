@@ -140,7 +140,10 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
         Receives the address.
     """
     opened = CaseText(text)
-    taken = _port(port)
+    listening = _socket(port)
+    taken = int(listening.getsockname()[1])
+    if os.name != "posix":  # there the server binds a port itself
+        listening.close()
     token = secrets.token_urlsafe(16)
     with tempfile.TemporaryDirectory(prefix="tehl-explore-") as folder:
         beside = None if case is None else case.resolve().parent
@@ -159,6 +162,7 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
         ui.run(
             host=ADDRESS,
             port=taken,
+            fd=listening.fileno() if os.name == "posix" else None,
             title="tehl explore",
             reload=False,
             show=f"/?token={token}" if browser else False,
@@ -194,8 +198,8 @@ async def _announce(port: int, address: str, report: Any) -> None:
             return
 
 
-def _port(wanted: int | None) -> int:
-    """Return a free port: the one wanted, the usual one, or any.
+def _socket(wanted: int | None) -> socket.socket:
+    """Return a socket that listens on a free port: the one wanted, the usual one, or any.
 
     Raises
     ------
@@ -203,14 +207,16 @@ def _port(wanted: int | None) -> int:
         If the one wanted is taken.
     """
     for port in (USUAL_PORT, 0) if wanted is None else (wanted,):
-        with socket.socket() as probe:
-            if os.name == "posix":  # a port whose last page has just ended is free
-                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            try:
-                probe.bind((ADDRESS, port))
-            except OSError:
-                continue
-            return int(probe.getsockname()[1])
+        found = socket.socket()
+        if os.name == "posix":  # a port whose last page has just ended is free
+            found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            found.bind((ADDRESS, port))
+            found.listen()
+        except OSError:
+            found.close()
+            continue
+        return found
     raise InputError(f"port {wanted} is taken by another program: choose another, or leave it out")
 
 
