@@ -109,14 +109,15 @@ def _by_grids(
             least=expected,
             most=MOST_EXPECTED * expected if expected and is_flooded else math.inf,
             extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == compared[-2:],
-            kind=hierarchy.scaled.problem.contact.type,
+            kind=scaled.problem.contact.type,
         )
     # grids that resolve the same heights
     compared = comparable(traces[roughness.first_comparable :])
     if len(compared) < 2:
         points, amplitude = roughness.points, roughness.amplitude
         return single_grid_estimate(traces[-1], level.grid.dx, points, amplitude, domain)
-    return error_estimate(compared, order, domain, rough=True, newtonian=newtonian)
+    kind = scaled.problem.contact.type
+    return error_estimate(compared, order, domain, rough=True, newtonian=newtonian, kind=kind)
 
 
 def comparable(traces: list[GridTrace]) -> list[GridTrace]:
