@@ -8,7 +8,7 @@ from tehl.estimate.nodes import EXPECTED_BAR_MARGIN, FAVOURED, LIMITED_RATIO, pl
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.estimate.third_order import third_order_bar
-from tests.reference import moes_contact
+from tests.reference import moes_contact, touching_contact
 
 
 @pytest.mark.parametrize(("radius_ratio", "margin"), [(12.0, 1.0), (2.0, EXPECTED_BAR_MARGIN)])
@@ -22,3 +22,29 @@ def test_a_slender_flooded_contact_is_planned_without_a_margin(
     fewer = FAVOURED[FAVOURED.index(nodes) - 1]
     bars = [third_order_bar(scaled, domain, one) for one in (nodes, fewer)]
     assert bars[0] <= (0.01 - far_field_error(scaled.groups, domain)) / margin < bars[1]
+
+
+@pytest.mark.parametrize(
+    ("load", "speed", "radius_ratio", "part"),
+    [
+        (1000.0, 8.0, 12.0, 0.25),  # thinnest at the exit
+        (30000.0, 8.0, 12.0, 1.0),  # at the sides, as the load is heavy,
+        (1000.0, 8.0, 4.0, 0.5),  # or the contact less slender
+        (100.0, 30.0, 12.0, 0.5),  # thick
+        (450.0, 2.0, 1.0, 2.0),
+        (450.0, 10.0, 1.0, 1.0),
+    ],
+)
+def test_a_film_that_is_thinnest_at_the_exit_needs_few_lines_and_one_at_the_sides_many(
+    load: float, speed: float, radius_ratio: float, part: float
+) -> None:
+    scaled = ScaledProblem.of(moes_contact(load, speed, radius_ratio=radius_ratio))
+    ny, nx = planned(scaled, Options(error=0.01)).shape
+    assert (ny - 1) == part * (nx - 1)
+
+
+def test_asperities_need_more_lines_than_their_film() -> None:
+    case = touching_contact(1000.0, 8.0, 1.0, radius_ratio=12.0)
+    smooth = case.model_copy(update={"asperities": None})
+    plans = [planned(ScaledProblem.of(one), Options(error=0.01)).shape for one in (case, smooth)]
+    assert [(ny - 1) / (nx - 1) for ny, nx in plans] == [0.5, 0.25]

@@ -7,6 +7,7 @@ from tehl.api.solvers import certify, solve
 from tehl.contact.options import Options
 from tehl.result.fields import Fields
 from tehl.solver.judging.extrapolation import Outputs, extrapolated
+from tehl.solver.judging.richardson import extrapolated_field
 from tests.reference import heated_contact, moes_contact
 
 
@@ -26,6 +27,12 @@ def test_an_error_of_second_order_vanishes_and_zeros_remain():
     assert found.film == pytest.approx(exact, abs=1e-14)
     assert (found.pressure[:, x <= 0] == 0).all()
     assert found.pressure[:, x > 0.05] == pytest.approx(exact[:, x > 0.05], abs=1e-14)
+
+
+def test_an_error_along_x_vanishes_on_grids_with_the_same_lines():
+    fine, coarse = (np.ones((5, 1)) * sampled(nodes).fields.film[:1] for nodes in (65, 33))
+    exact = np.tile(2.0 - np.linspace(-1.0, 1.0, 65), (5, 1))
+    assert extrapolated_field(fine, coarse) == pytest.approx(exact, abs=1e-14)
 
 
 @pytest.mark.parametrize("order", [2, 3])

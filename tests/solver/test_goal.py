@@ -12,12 +12,19 @@ from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import ConvergenceError
 from tehl.api.solvers import solve, solve_transient
 from tehl.contact.options import Domain, Options
+from tehl.estimate.grid import Grid
 from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.io.templates import template_text
 from tehl.result.bars import ErrorEstimate
-from tehl.solver.judging.goal import FLOODED_PART, MOST_SPARE, SPARE_PART, Goal
+from tehl.solver.judging.goal import (
+    FLOODED_PART,
+    MOST_OTHERS,
+    MOST_SPARE,
+    SPARE_PART,
+    Goal,
+)
 from tests.reference import heated_contact, moes_contact
 from tests.solver.rough import wavy
 
@@ -64,6 +71,27 @@ def test_a_minimum_that_errs_by_the_mesh_along_y_gets_more_lines_alone():
     assert found.errors.minimum <= found.options.target
     before = max(report.points[1] for report in found.history if report.points[0] == nx)
     assert before == ny
+
+
+def test_a_quarter_of_the_lines_gives_the_film_that_is_thinnest_at_the_exit():
+    problem = moes_contact(1000.0, 8.0, radius_ratio=12.0)
+    few = solve(problem)
+    ny, nx = few.scaled.film.shape
+    many = solve(problem, Options(points=(nx, 2 * ny - 1), extrapolate=True))
+    assert ny - 1 == (nx - 1) / 4
+    for name in ("central", "minimum"):
+        films = [getattr(one.film_scaled, name) for one in (few, many)]
+        assert films[0] == pytest.approx(films[1], rel=5e-4)
+
+
+def test_the_bar_of_a_minimum_at_the_sides_holds_on_too_few_lines():
+    problem = moes_contact(450.0, 2.0)
+    few, many = (
+        solve(problem, Options(points=points, extrapolate=True)) for points in (161, (321, 641))
+    )
+    assert few.film_scaled.minimum_at[1] > 0.9
+    off = abs(few.film_scaled.minimum / many.film_scaled.minimum - 1.0)
+    assert 0.5 * few.errors.minimum < off < few.errors.minimum
 
 
 def test_a_smaller_error_takes_a_finer_grid_and_a_larger_domain():
@@ -272,20 +300,55 @@ def test_the_iteration_may_keep_what_the_other_errors_leave(minimum: float, spar
     assert goal.spare(None) == 0.0
 
 
-@pytest.mark.parametrize(("minimum", "more"), [(0.025, True), (0.014, False)])
-def test_a_minimum_as_accurate_as_the_central_film_gets_no_more_lines_alone(
-    minimum: float, more: bool
+@pytest.mark.parametrize(
+    ("minimum", "thinnest", "more"), [(0.025, 0.9, True), (0.014, 0.9, False), (0.025, 0.1, False)]
+)
+def test_a_minimum_that_errs_by_no_mesh_along_y_gets_no_more_lines_alone(
+    minimum: float, thinnest: float, more: bool
 ) -> None:
     scaled = ScaledProblem.of(moes_contact(400.0, 1.0))
     options = settled(scaled.problem, Options())
-    level = Mock(grid=finest_grid(scaled, options.on_points(97, 97)))
+    level = with_minimum_at(thinnest, finest_grid(scaled, options.on_points(97, 97)))
     assert Goal(scaled, options).wants_lines(level, errors(0.008, minimum)) is more
+
+
+@pytest.mark.parametrize(
+    ("central", "minimum", "nodes"),
+    [
+        (0.006, 0.011, (161, 161)),
+        (0.006, 0.016, (193, 193)),
+        (0.006, 0.03, None),  # half the mesh width
+        (0.012, 0.012, (161, 161)),
+    ],
+)
+def test_a_bar_that_hardly_exceeds_the_error_gets_a_grid_between(
+    central: float, minimum: float, nodes: tuple[int, int] | None
+) -> None:
+    scaled = ScaledProblem.of(moes_contact(400.0, 10.0))
+    options = settled(scaled.problem, Options())
+    level = with_minimum_at(0.1, finest_grid(scaled, options.on_points(129, 129)))
+    assert Goal(scaled, options).other_nodes(level, errors(central, minimum)) == nodes
+
+
+def test_few_other_grids_are_tried() -> None:
+    scaled = ScaledProblem.of(moes_contact(400.0, 10.0))
+    options = settled(scaled.problem, Options())
+    level = with_minimum_at(0.1, finest_grid(scaled, options.on_points(129, 129)))
+    goal = Goal(scaled, options)
+    found = [goal.other_nodes(level, errors(0.006, 0.011)) for _ in range(MOST_OTHERS + 1)]
+    assert found == [(161, 161)] * MOST_OTHERS + [None]
+
+
+def with_minimum_at(y: float, grid: Grid) -> Mock:
+    """Return a level whose film is thinnest at a distance from the centre line."""
+    film = np.abs(grid.y - y)[:, None] + np.ones(grid.nx)
+    return Mock(grid=grid, film=Mock(h=film))
 
 
 def test_a_flooded_film_to_which_a_supply_is_stated_has_the_goal_of_its_centre() -> None:
     scaled = ScaledProblem.of(moes_contact(400.0, 1.0))
     options = settled(scaled.problem, Options(error=0.01))
-    level = Mock(grid=finest_grid(scaled, options.on_points(97, 97)))
+    level = with_minimum_at(0.9, finest_grid(scaled, options.on_points(97, 97)))
     goal = Goal(scaled, options, of_central=True)
     assert goal.is_met(errors(0.005, 0.025))
     assert not goal.is_met(errors(0.0065, 0.001))

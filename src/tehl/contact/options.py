@@ -38,8 +38,9 @@ Interval = tuple[Annotated[float, NO_BOOLEAN], Annotated[float, NO_BOOLEAN]]
 USUAL_ERROR, USUAL_PLAIN_ERROR = 0.01, 0.02
 """Relative error of central and minimum film that is reached by default, and without
 extrapolation."""
-LARGEST_COARSEST = 64
-"""Most intervals along one direction of the coarsest grid, whose Newton matrix is dense."""
+MOST_STRETCH = 4
+"""Most intervals along one direction over those along the other: the coarsest grid, whose Newton
+matrix is dense, has as different ones where cells are not long."""
 LARGEST_ERROR = 0.5
 """Largest error that can be asked for."""
 LARGEST_DOMAIN_EDGE = 1e3
@@ -189,11 +190,10 @@ class Options(Table):
                     f"points = {nodes}: cannot be coarsened; take n 2^k + 1 with 16 <= n <= 31 "
                     f"and k >= 1, such as {fewer} or {more} nodes"
                 )
-        common = min(coarsenings(nodes) for nodes in lines)
-        if max(self.shape) - 1 > LARGEST_COARSEST * 2**common:
+        if max(lines) - 1 > MOST_STRETCH * (min(lines) - 1):
             raise ValueError(
                 f"points = {self.points}: too different along x and y; one direction may have at "
-                "most 4 times the nodes of the other"
+                f"most {MOST_STRETCH} times the intervals of the other"
             )
         return self
 

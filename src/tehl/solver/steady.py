@@ -119,10 +119,9 @@ class Climb:
             force = all(one.newton for one in rungs[number + 1 :])
             attempt = self._attempt(plan, strategy, solved, force=force)
             best = _better(best, attempt)
-            while attempt.run.wants_lines and not self.goal.is_over:
-                nx, ny = attempt.run.finest.grid.points
-                plan = plan.on_points(nx, 2 * ny - 1)
-                self.monitor.message(f"more lines: {grid_size(plan.shape[::-1])}")
+            while attempt.run.wanted is not None and not self.goal.is_over:
+                plan = plan.on_points(*attempt.run.wanted)
+                self.monitor.message(f"another grid: {grid_size(plan.shape[::-1])}")
                 del attempt  # frees its grids, unless it is the best one
                 attempt = self._attempt(plan, strategy, force=force)
                 best = _better(best, attempt)

@@ -85,7 +85,7 @@ class FilmSolver(GridIteration):
         self.guess = guess
         self.solved: tuple[Solved, ...] = ()  # coarser grids, for another strategy
         self.accepted = True  # the next coarser grid has an acceptable solution
-        self.wants_lines = False  # more nodes along y alone would reach the goal
+        self.wanted: tuple[int, int] | None = None  # nodes of another grid for the goal
 
     @property
     def groups(self) -> Groups:
@@ -223,8 +223,8 @@ class FilmSolver(GridIteration):
             return (force or not resolved) and self.goal.may_try(self.finest)
         if resolved and self.goal.is_met(errors, part):
             return False
-        self.wants_lines = resolved and self.goal.wants_lines(self.finest, errors)
-        return not self.wants_lines and self.goal.may_refine(self.finest, errors)
+        self.wanted = self.goal.other_nodes(self.finest, errors) if resolved else None
+        return self.wanted is None and self.goal.may_refine(self.finest, errors)
 
     def _is_last(self, levels: Sequence[Level]) -> bool:
         """Return whether a grid is accurate enough, or no finer one may follow."""

@@ -10,7 +10,7 @@ from tehl.contact.options import Domain, Options, can_be_halved
 from tehl.estimate.domain import far_field_error
 from tehl.estimate.entering import entry_error
 from tehl.estimate.memory import USUAL_MEMORY, memory_limit, needed_memory
-from tehl.estimate.nodes import lines_bar
+from tehl.estimate.nodes import FAVOURED, LIMITED_RATIO, side_bar
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.spin import spin_error
 from tehl.estimate.starvation import supply_error
@@ -22,7 +22,11 @@ from tehl.solver.cycle.level import Level
 from tehl.solver.judging.convergence import GridTrace
 from tehl.solver.judging.film_summary import central_value
 from tehl.solver.judging.grid_errors import error_estimate, single_grid_estimate
-from tehl.solver.judging.measures import is_pressed_at_end, is_thinnest_at_end
+from tehl.solver.judging.measures import (
+    is_pressed_at_end,
+    is_thinnest_at_end,
+    is_thinnest_at_side,
+)
 
 FACTOR = 5.0
 """Expected time on a grid over that on the next coarser one, which has a quarter of its nodes."""
@@ -47,6 +51,9 @@ one, which has it beside its own: with 0.5 an inner ring (M = 3,700) needs anoth
 starved rig (M = 811)."""
 MOST_LINES = 2
 """Most nodes along y over those along x."""
+BETWEEN, BETWEEN_MARGIN, MOST_OTHERS = 1.5, 1.05, 2
+"""Most intervals along x of another grid over those of the last, as half the mesh width costs four
+times as much; margin of its error bars; and how many other grids are tried."""
 MOST_NODES_PER_AXIS = 16385
 """Most nodes along one direction."""
 
@@ -75,9 +82,13 @@ def estimated_errors(
         bars = {name: bar for name, bar in bars.items() if name != "pressure_max"}
     # a boundary film in the middle does not depend on the oil that enters
     meets = central_value(level.grid, level.share.meets(level).astype(float))
+    at_sides = 0.0
+    if _expected_bar(hierarchy, level) and not roughness.is_rough and is_thinnest_at_side(level):
+        at_sides = side_bar(hierarchy.scaled, level.grid.domain, level.grid.ny)
     return replace(
         found,
         bars=bars,
+        discretisation_minimum=max(found.discretisation_minimum, at_sides),
         supply=max(1.0 - meets, 0.0) * supply_error(hierarchy.scaled),
         minimum_has_limit=not is_thinnest_at_end(level),
         pressure_has_limit=not at_end,
@@ -100,14 +111,14 @@ def _by_grids(
         if len(compared) < 2:
             return None
         expected = _expected_bar(hierarchy, level)
-        is_flooded = scaled.problem.supply is None
+        is_limited = scaled.problem.supply is None or scaled.groups.ellipticity >= LIMITED_RATIO
         return error_estimate(
             compared,
             order,
             domain,
             newtonian=newtonian,
             least=expected,
-            most=MOST_EXPECTED * expected if expected and is_flooded else math.inf,
+            most=MOST_EXPECTED * expected if expected and is_limited else math.inf,
             extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == compared[-2:],
             kind=scaled.problem.contact.type,
         )
@@ -156,6 +167,7 @@ class Goal:
     obstacle: str = ""
     """Why no finer grid follows."""
     _tries: int = 0
+    _others: int = 0
     _started: float = field(default_factory=time.perf_counter)
     _last: float = field(default_factory=time.perf_counter)
 
@@ -244,7 +256,7 @@ class Goal:
         return self.may_refine(level)
 
     def wants_lines(self, level: Level, errors: ErrorEstimate | None) -> bool:
-        """Return whether the minimum film errs by the mesh along y, and twice the lines fit.
+        """Return whether the minimum film errs by the mesh along y alone.
 
         Parameters
         ----------
@@ -256,18 +268,59 @@ class Goal:
         grid, target = level.grid, self.target
         if errors is None or errors.central > target or not self.options.extrapolate:
             return False
-        if self.of_central or not errors.minimum_has_limit:
+        if self.of_central or not (errors.minimum_has_limit and is_thinnest_at_side(level)):
             return False
         others = errors.minimum - errors.discretisation_minimum
         if errors.discretisation_minimum < LINES_PART * errors.discretisation_central:
             return False
-        if others > 0.5 * target or lines_bar(self.scaled, grid.domain, grid.ny) < 0.5 * target:
+        if others > 0.5 * target or side_bar(self.scaled, grid.domain, grid.ny) < 0.2 * target:
             return False
         finer = 2 * grid.ny - 1
-        if finer > MOST_LINES * grid.nx or finer > MOST_NODES_PER_AXIS:
-            return False
-        plan = self.options.on_points(grid.nx, finer)
-        return needed_memory(plan, self.scaled.problem) <= memory_limit(self.options)
+        return finer <= MOST_LINES * grid.nx and finer <= MOST_NODES_PER_AXIS
+
+    def other_nodes(self, level: Level, errors: ErrorEstimate | None) -> tuple[int, int] | None:
+        """Return nodes (nx, ny) of another grid that is expected to reach the error; None if none.
+
+        It has more lines alone, or a mesh between that of the last grid and half of it.
+
+        Parameters
+        ----------
+        level : Level
+            Finest level so far.
+        errors : ErrorEstimate or None
+            Of that level.
+        """
+        if self._others == MOST_OTHERS:
+            return None
+        nx, ny = level.grid.points
+        found = (nx, 2 * ny - 1) if self.wants_lines(level, errors) else None
+        found = found or self._between(level, errors)
+        if found is None or self._needed(found) > memory_limit(self.options):
+            return None
+        self._others += 1
+        return found
+
+    def _between(self, level: Level, errors: ErrorEstimate | None) -> tuple[int, int] | None:
+        """Return nodes (nx, ny) with a mesh on which bars of second order meet the goal."""
+        grid, target = level.grid, self.target
+        if errors is None or not self.options.extrapolate:
+            return None
+        pairs = [(errors.central, errors.discretisation_central)]
+        if errors.minimum_has_limit and not self.of_central:
+            pairs.append((errors.minimum, errors.discretisation_minimum))
+        left = [(bar, target - (whole - bar)) for whole, bar in pairs]
+        if min(part for _, part in left) <= 0.0 or grid.is_closed or grid.ny == 1:
+            return None
+        ratio = max(bar / part for bar, part in left)
+        least = (grid.nx - 1) * math.sqrt(BETWEEN_MARGIN * ratio)
+        nodes = next((n for n in FAVOURED if n > max(least, grid.nx)), math.inf)
+        if nodes - 1 > BETWEEN * (grid.nx - 1):
+            return None
+        return int(nodes), round((nodes - 1) * (grid.ny - 1) / (grid.nx - 1)) + 1
+
+    def _needed(self, points: tuple[int, int]) -> float:
+        """Return the memory that a grid of nodes (nx, ny) needs [byte]."""
+        return needed_memory(self.options.on_points(*points), self.scaled.problem)
 
     def may_refine(self, level: Level, errors: ErrorEstimate | None = None) -> bool:
         """Return whether a grid of twice the intervals may follow; if not, `obstacle` says why.
@@ -282,7 +335,7 @@ class Goal:
         nx, ny = (2 * (n - 1) + 1 for n in level.grid.points)
         now, limit = time.perf_counter(), self.options.max_time
         expected = FACTOR * (now - self._last)
-        needed = needed_memory(self.options.on_points(nx, ny), self.scaled.problem)
+        needed = self._needed((nx, ny))
         available, supply = memory_limit(self.options), errors.supply if errors else 0.0
         self.obstacle = ""
         if errors is not None and errors.domain > self.target:

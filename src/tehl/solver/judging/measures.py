@@ -25,6 +25,8 @@ TAIL_ERROR, TAIL_OF_ZERO_EDGE = 0.002, 0.03
 film lacks that oil too."""
 LOADED_END = 0.1
 """Largest pressure at the end of a roller, in Hertz pressures, beyond which the end is loaded."""
+SIDE_FROM = 0.5
+"""Distance from the centre line beyond which the film is thinnest at a side, in half-widths."""
 Part = Literal["x", "y", "z"]
 SPIKE_FROM = 0.5
 """X downstream of which the pressure spike is searched, in Hertz half-widths."""
@@ -128,6 +130,13 @@ def is_thinnest_at_end(level: Level) -> bool:
     film = level.film
     row = int(film.h.min(axis=1).argmin())
     return row in ends_of(level.grid) and float(film.p[row].max()) > LOADED_END
+
+
+def is_thinnest_at_side(level: Level) -> bool:
+    """Whether a film is thinnest beside the edge of an ellipse: the mesh along y decides there."""
+    grid = level.grid
+    row = int(level.film.h.min(axis=1).argmin())
+    return grid.ny > 1 and not grid.is_closed and abs(float(grid.y[row])) > SIDE_FROM
 
 
 def is_pressed_at_end(level: Level) -> bool:

@@ -172,12 +172,17 @@ def _mean(values: Array) -> float:
 
 
 def extrapolated_field(fine: Array, coarse: Array) -> Array:
-    """Return an extrapolated field, (..., ny, nx); zeros remain, and what is never negative."""
-    shared = fine[..., ::2, ::2] - coarse
+    """Return an extrapolated field, (..., ny, nx); zeros remain, and what is never negative.
+
+    ``coarse`` has half the columns, and half the lines or as many.
+    """
+    every = 1 if fine.shape[-2] == coarse.shape[-2] else 2
+    shared = fine[..., ::every, ::2] - coarse
     change = np.empty_like(fine)
-    change[..., ::2, ::2] = shared
-    change[..., ::2, 1::2] = 0.5 * (shared[..., 1:] + shared[..., :-1])
-    change[..., 1::2, :] = 0.5 * (change[..., 2::2, :] + change[..., :-1:2, :])
+    change[..., ::every, ::2] = shared
+    change[..., ::every, 1::2] = 0.5 * (shared[..., 1:] + shared[..., :-1])
+    if every > 1:
+        change[..., 1::2, :] = 0.5 * (change[..., 2::2, :] + change[..., :-1:2, :])
     found = fine + WEIGHT * change
     if fine.min() >= 0.0:
         np.maximum(found, 0.0, out=found)
