@@ -4,12 +4,21 @@ from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import domain_of
 from tehl.estimate.duration import components
-from tehl.estimate.grid import Grid, can_mirror, halved_grids
+from tehl.estimate.grid import (
+    Grid,
+    can_mirror,
+    coarsest_of,
+    halved_grids,
+    has_long_cells,
+    long_grids,
+)
 from tehl.estimate.machine import machine_factor
 from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.roughness.model import TileModel
 
+COARSEST_MESH = 1.0
+"""Mesh width along x up to which the coarsest grid with long cells goes [half-widths]."""
 START_TIME, SURFACE_TIME = 0.02, 0.14
 """CPU time of any solve, and of random and measured surfaces, beside the cycles [s]: this and all
 others on the machine of `tehl.estimate.machine`."""
@@ -153,7 +162,10 @@ def _grids(scaled: ScaledProblem, plan: Options) -> list[Grid]:
     domain, (ny, nx) = domain_of(scaled, plan), plan.shape
     halves = plan.half_domain == "auto" and scaled.problem.is_even_in_y
     mirror = halves and can_mirror(plan.shape, domain)
-    return halved_grids(Grid(nx=nx, ny=ny, domain=domain, mirror=mirror))
+    finest, touches = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror), scaled.problem.asperities
+    if has_long_cells(finest, scaled.groups.ellipticity, touches=touches is not None):
+        return long_grids(finest, coarsest_of(finest, COARSEST_MESH), by_columns=False)
+    return halved_grids(finest)
 
 
 def _has_heights(scaled: ScaledProblem, grid: Grid) -> bool:

@@ -233,6 +233,22 @@ def halved(grid: Grid, axes: tuple[int, int]) -> Grid | None:
     return replace(grid, nx=nx + 1, ny=ny + 1)
 
 
+def has_long_cells(grid: Grid, ellipticity: float, *, touches: bool) -> bool:
+    """Whether cycles halve columns before lines: on rollers, and on cells much longer along y.
+
+    Parameters
+    ----------
+    grid : Grid
+        The finest one.
+    ellipticity : float
+        a_y/a_x of the contact.
+    touches : bool
+        Asperities below the grid carry load, see `is_long` of the relaxation.
+    """
+    stretch = ellipticity * grid.dy / grid.dx
+    return grid.is_closed or (grid.ny > 1 and stretch > LONG_STRETCH and not touches)
+
+
 def long_grids(finest: Grid, coarsest: Grid, *, by_columns: bool) -> list[Grid]:
     """Return the grids where cells are long, coarsest first.
 

@@ -8,13 +8,13 @@ import numpy as np
 
 from tehl.contact.options import Options
 from tehl.estimate.grid import (
-    LONG_STRETCH,
     Grid,
     coarsest_of,
     halved_grids,
+    has_long_cells,
     long_grids,
 )
-from tehl.estimate.scaling import Groups, ScaledProblem
+from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.summits import shared_load
 from tehl.operators.flow import flow_table
 from tehl.solver.cycle.coarsest import CoarsestSolver
@@ -42,20 +42,6 @@ pressure bends the bodies far away, and a grid on which it has few nodes does no
 LEAST_FILM_OF_W_CYCLE = 0.25
 """Expected central film above which two visits help: for a thinner film such a grid has no valid
 discrete solution, and more visits do harm (M = 200 and more on wide domains)."""
-
-
-def has_long_cells(grid: Grid, groups: Groups, *, touches: bool) -> bool:
-    """Whether cycles halve columns before lines: on rollers, and on cells much longer along y.
-
-    Parameters
-    ----------
-    grid, groups : Grid, Groups
-        The finest one, and the shape of the contact.
-    touches : bool
-        Asperities below the grid carry load, see `is_long` of the relaxation.
-    """
-    stretch = groups.ellipticity * grid.dy / grid.dx
-    return grid.is_closed or (grid.ny > 1 and stretch > LONG_STRETCH and not touches)
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +112,7 @@ class Hierarchy:
             widest *= scaled.groups.shape.widest
             dense = LINE_DENSE
         touches = scaled.problem.asperities is not None
-        is_long = has_long_cells(finest, scaled.groups, touches=touches)
+        is_long = has_long_cells(finest, scaled.groups.ellipticity, touches=touches)
         if is_long:
             grids = long_grids(finest, coarsest_of(finest, widest), by_columns=False)
         else:

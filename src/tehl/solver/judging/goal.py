@@ -305,8 +305,10 @@ class Goal:
         grid, target = level.grid, self.target
         if errors is None or not self.options.extrapolate:
             return None
+        if self.of_central or self.scaled.problem.supply is not None:  # fewer grids converge
+            return None
         pairs = [(errors.central, errors.discretisation_central)]
-        if errors.minimum_has_limit and not self.of_central:
+        if errors.minimum_has_limit:
             pairs.append((errors.minimum, errors.discretisation_minimum))
         left = [(bar, target - (whole - bar)) for whole, bar in pairs]
         if min(part for _, part in left) <= 0.0 or grid.is_closed or grid.ny == 1:
