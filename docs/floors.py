@@ -7,6 +7,7 @@ floors are those that import-linter checks, subjects the first lines of the modu
 import ast
 import re
 import tomllib
+from functools import cache
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -88,6 +89,7 @@ def badge(number: int, x: float, y: float) -> str:
     )
 
 
+@cache
 def subject(path: Path) -> str:
     """Return the first line of the docstring of a module."""
     text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""

@@ -4,6 +4,7 @@ import gc
 import signal
 
 import pytest
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from tests.fixtures_result import certified, result, stalled
 from tests.fixtures_rough import rough, smooth
@@ -14,6 +15,15 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 __all__ = ["certified", "result", "rough", "sheared", "smooth", "stalled", "thermal"]
+
+
+@pytest.fixture(autouse=True)
+def unarranged(monkeypatch):
+    """Draw pictures without searching the places of their parts, which takes most of the time.
+
+    They are searched in tests/plots, which judges pictures.
+    """
+    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda *_: None)
 
 
 @pytest.hookimpl(wrapper=True)

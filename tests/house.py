@@ -53,6 +53,7 @@ def trees(package: Path = PACKAGE) -> dict[str, ast.Module]:
     return found
 
 
+@cache
 def imports(package: Path = PACKAGE) -> Arrows:
     """Return the modules that each module imports."""
     modules = trees(package)
@@ -78,6 +79,7 @@ def room_of(module: str) -> str:
     return ".".join(module.split(".")[:2])
 
 
+@cache
 def arrows(package: Path = PACKAGE) -> Arrows:
     """Return the rooms that each room imports."""
     found: Arrows = {}

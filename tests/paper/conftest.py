@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from paper.reproduce import needed_series, reproduce
 from paper.runs import Runs
 
@@ -15,7 +16,9 @@ SLIDING = ("T3", "C4", "C5", "P0", "P2")
 def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the folder of a small reproduction."""
     folder = tmp_path_factory.mktemp("reproduced")
-    reproduce(folder, NAMES, points=POINTS, jobs=1)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ConstrainedLayoutEngine, "execute", lambda *_: None)
+        reproduce(folder, NAMES, points=POINTS, jobs=1)
     return folder
 
 

@@ -77,9 +77,9 @@ def page(texts):
 
 
 @pytest.fixture
-def one_picture(monkeypatch):
-    """Drawing all pictures takes seconds; they are tested once."""
-    monkeypatch.setattr(module, "CAPTIONS", {"residuals": "Convergence."})
+def no_pictures(monkeypatch):
+    """Drawing takes seconds; pictures are tested once."""
+    monkeypatch.setattr(module, "CAPTIONS", {})
 
 
 def test_pictures_are_embedded_and_all_links_are_local(page):
@@ -101,7 +101,7 @@ def test_each_quantity_of_the_first_table_has_a_unit():
     assert {FILTERS[unit] for unit in units} <= UNITS.keys()
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 def test_a_thermal_run_has_sections_of_heat_and_traction(thermal, result):
     words = " ".join(Page(report_text(thermal, dpi=40)).words)
     found = thermal.temperature
@@ -134,7 +134,7 @@ def test_dynamics_have_a_table_and_a_picture(result, monkeypatch):
     assert len(page.sources) == 1
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 def test_traction_alone_has_its_section(sheared):
     words = " ".join(Page(report_text(sheared, dpi=40)).words)
     assert "the film brakes it" in words
@@ -155,7 +155,7 @@ def test_each_kind_has_each_section_and_needs_no_network(texts, kind):
     assert not any(word in text for word in ("http:", "https:", "@import", "url("))
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 @pytest.mark.parametrize("kind", ["steady", "transient"])
 def test_a_hostile_title_is_escaped(result, kind):
     title = '<script>alert("x")</script> & co'
@@ -181,7 +181,7 @@ def test_a_transient_run_shows_its_pictures_and_extremes(texts):
     assert "The run is not certified" in words
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 def test_a_dent_is_followed_through_the_contact():
     run = make_transient()
     page = Page(report_text(run))
@@ -193,7 +193,7 @@ def test_a_dent_is_followed_through_the_contact():
     assert f"{largest_change(run, 'film', 1).value * 1e9:.4g} nm" in words
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 def test_a_wave_shows_its_amplitude_reduction():
     run = passing(wave_case(phase=0.0), points=65, flattened=0.3)
     found = passing_wave(run, 1)
@@ -204,7 +204,7 @@ def test_a_wave_shows_its_amplitude_reduction():
     assert "Not evaluated: a period of the wave of surface_1 has" in few
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 def test_error_bars_of_a_transient_run_are_in_si():
     run = make_certified()
     words = " ".join(Page(report_text(run)).words)
@@ -213,7 +213,7 @@ def test_error_bars_of_a_transient_run_are_in_si():
     assert "± 1.4e-10" not in words
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 def test_a_transient_run_that_stopped_shows_cause_and_hint():
     status = Status(
         kind="stalled", cause="step_not_settled", message="A step failed.", hint=Hint("Halve it.")
@@ -224,7 +224,7 @@ def test_a_transient_run_that_stopped_shows_cause_and_hint():
     )
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 def test_a_failure_is_shown_with_its_hint(stalled):
     words = " ".join(Page(report_text(replace(stalled, errors=None), dpi=40)).words)
     assert "Stalled: grid too coarse" in words
@@ -232,7 +232,7 @@ def test_a_failure_is_shown_with_its_hint(stalled):
     assert "No error could be estimated" in words
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 def test_the_error_of_the_largest_pressure_is_shown(result):
     errors = replace(result.errors, bars={"pressure_max": 0.099})
     words = " ".join(Page(report_text(replace(result, errors=errors), dpi=40)).words)
@@ -255,7 +255,7 @@ def _with(result, **surface):
     return replace(result, problem=ContactProblem.model_validate(case))
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 @pytest.mark.parametrize(
     ("rms", "regime"), [(3e-8, "Full film"), (1e-7, "Mixed"), (1e-6, "Boundary lubrication")]
 )
@@ -268,7 +268,7 @@ def test_the_lubrication_regime_stands_above_the_result(result, rms, regime):
     assert regime not in bare
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 def test_a_certified_traction_stands_with_its_bar_in_the_first_table(sheared):
     bar = Estimate(
         value=-0.0412,
@@ -304,13 +304,13 @@ def test_the_fullest_report_prints_on_six_pages(thermal, tmp_path):
     assert 1 < len(re.findall(rb"/Type ?/Page\b", printed.read_bytes())) <= 6
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 def test_a_certified_value_stands_first_with_its_bar(certified):
     words = " ".join(Page(report_text(certified, dpi=40)).words)
     assert words.index("±") < words.index("Formulas against computed")
 
 
-@pytest.mark.usefixtures("one_picture")
+@pytest.mark.usefixtures("no_pictures")
 def test_a_negative_film_is_not_reported_as_a_result(stalled):
     numbers = replace(stalled.film_scaled, central=0.1, minimum=-0.1)
     text = report_text(replace(stalled, film_scaled=numbers), dpi=40)
