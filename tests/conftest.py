@@ -26,6 +26,12 @@ def unarranged(monkeypatch):
     monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda *_: None)
 
 
+@pytest.fixture
+def no_pictures(monkeypatch):
+    """Leave out the pictures of a report, whose drawing takes seconds."""
+    monkeypatch.setattr("tehl.report.page.CAPTIONS", {})
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_collection():
     """Leave what is imported and collected out of the search for garbage: a tenth of the time."""

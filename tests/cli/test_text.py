@@ -3,6 +3,8 @@
 import math
 from dataclasses import replace
 
+import pytest
+
 from tehl.cli.reference_runs import Comparisons
 from tehl.cli.text import as_text, failure_text
 from tehl.contact.heat import Thermal
@@ -148,6 +150,7 @@ def test_a_failure_has_its_hint_in_a_second_line():
     assert failure_text(Status(kind="diverged"), "NaN").endswith("(diverged): NaN")
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_a_certified_run_reports_how_its_grids_ended(result):
     message = "Grids of the error bars: 65 x 65 too coarse for the film."
     assert message in as_text(replace(result, status=Status(kind="converged", message=message)))

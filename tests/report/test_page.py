@@ -76,12 +76,6 @@ def page(texts):
     return Page(texts["steady"])
 
 
-@pytest.fixture
-def no_pictures(monkeypatch):
-    """Drawing takes seconds; pictures are tested once."""
-    monkeypatch.setattr(module, "CAPTIONS", {})
-
-
 def test_pictures_are_embedded_and_all_links_are_local(page):
     assert len(page.sources) == 5
     assert all(source.startswith("data:image/png;base64,") for source in page.sources)

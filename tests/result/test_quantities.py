@@ -74,6 +74,7 @@ def test_a_new_quantity_is_a_column_of_studies_and_of_lists(extended):
     assert certified(found, drawn)[1] == pytest.approx(0.05 * drawn.values)
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_a_new_quantity_is_in_texts_reports_and_on_the_page(extended):
     edge = 2e9 * extended.film.central
     line = next(one for one in as_text(extended).splitlines() if "film at the edge" in one)

@@ -238,6 +238,7 @@ def test_tight_films_with_asperities_lose_no_oil(kind):
     assert found.load_sharing.balance < 1e-10
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_the_balance_of_the_oil_is_printed_and_small(mixed):
     balance = mixed.load_sharing.balance
     assert 0.0 < balance < 0.02  # of the same size as the error in the inlet
@@ -643,6 +644,7 @@ def softer(result, hardness):
     return replace(result, problem=case.model_copy(update={"surface_1": surface}))
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_summits_yield_at_the_hardness_of_the_softer_solid(mixed):
     elastic = mixed.load_sharing
     assert elastic.spots.pressure == elastic.spots.elastic_pressure
@@ -659,6 +661,7 @@ def test_summits_yield_at_the_hardness_of_the_softer_solid(mixed):
     assert "the hardness, where most is carried" in report_text(pressed, dpi=30)
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_the_regime_follows_the_share_of_the_load_where_asperities_are_computed(mixed):
     rough_numbers = mixed.roughness
     assert rough_numbers.share == mixed.load_sharing.share

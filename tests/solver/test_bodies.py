@@ -103,6 +103,7 @@ def test_the_heat_of_asperities_enters_both_bodies():
     assert known.temperature_1 - 313.15 == pytest.approx(60.0 * known.heat_1, rel=1e-6)
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_the_temperatures_are_stored_printed_and_reported(balanced, tmp_path, monkeypatch):
     monkeypatch.setattr("tehl.report.page.CAPTIONS", {})  # without pictures
     balanced.save(tmp_path / "film.nc")

@@ -60,11 +60,16 @@ def test_a_boundary_film_below_that_of_the_oil_leaves_it_as_it_is(other: str):
 def test_grooves_that_touch_are_those_without_the_other_physics_in_its_limit(other, tables):
     """No thinning, cavities behind the contact, oil in plenty, asperities that are very low."""
     lubricant = {"lubricant": {"shear": {"law": "newtonian"}}} if other != "thinning" else {}
-    alone = solve(grooves("boundary"), TIGHT)
+    alone = touching_grooves()
     found = solve(changed(grooves("boundary", other), **(lubricant | tables)), TIGHT)
     assert 0.3 < alone.touching.share < 0.9
     assert found.touching.share == pytest.approx(alone.touching.share, abs=5e-3)
     assert found.film.central == pytest.approx(alone.film.central, rel=2e-3)
+
+
+@cache
+def touching_grooves() -> Result:
+    return solve(grooves("boundary"), TIGHT)
 
 
 def grooves(*features: str, thickness: float = 1.2e-7) -> ContactProblem:
@@ -183,6 +188,7 @@ def test_a_study_of_a_transient_run_is_refused_with_a_reason():
     assert outcome(("load",), 65, "study").endswith("a study is one of steady films")
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_the_text_states_the_friction_of_film_contact_and_asperities_together(monkeypatch):
     monkeypatch.setattr(boundary_contact, "LEAST_CELLS", 0.0)  # the share of few cells
     monkeypatch.setattr(boundary_contact, "LARGEST_SHARE_BAR", 1.0)

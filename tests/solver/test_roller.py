@@ -48,8 +48,14 @@ def test_a_logarithmic_profile_is_pressed_evenly(law):
     assert loads @ grid.widths == pytest.approx(2.0, rel=1e-6)
 
 
-def test_the_middle_of_a_roller_is_a_line_contact():
-    found = tehl.solve(roller(profile=LOGARITHMIC), Options(points=(257, 129)))
+@pytest.fixture(scope="module")
+def logarithmic() -> tehl.Result:
+    """Return the film of a roller with a logarithmic profile."""
+    return tehl.solve(roller(profile=LOGARITHMIC), Options(points=(257, 129)))
+
+
+def test_the_middle_of_a_roller_is_a_line_contact(logarithmic):
+    found = logarithmic
     line = tehl.solve(contact(type="line", radius="10 mm", moes_load=50.0))
     row = found.scaled.film[64]
     assert found.film_scaled.central == pytest.approx(line.film_scaled.central, rel=0.01)
@@ -164,9 +170,9 @@ def test_the_bars_to_expect_of_ellipses_do_not_limit_those_of_rollers():
     assert found.film_scaled.minimum == pytest.approx(0.06255, rel=found.errors.minimum)
 
 
-def test_lines_crowd_at_the_ends_and_resolve_the_film_there():
+def test_lines_crowd_at_the_ends_and_resolve_the_film_there(logarithmic):
     """On uniform lines it is 0.0255 and 0.0223 with as many and twice as many, 0.0197 with four."""
-    found = tehl.solve(roller(profile=LOGARITHMIC), Options(points=(257, 129)))
+    found = logarithmic
     y = found.scaled.y
     assert y[-1] - y[-2] < 0.15 * (y[65] - y[64])
     # grids twice as fine each way give 0.0184

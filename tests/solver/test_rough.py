@@ -190,6 +190,7 @@ def test_the_short_waves_of_a_map_are_filtered_and_not_rejected(tmp_path):
         heights_of(problem, grid)
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_waves_that_the_grid_loses_are_reported_and_count_for_lambda(tmp_path):
     x = np.arange(800) * 1e-6
     short = 2 * np.cos(2 * np.pi * x / 8e-6) * np.cos(2 * np.pi * x / 8e-6)[:, None]

@@ -68,6 +68,7 @@ def test_a_film_below_the_floor_is_reported_as_such():
     assert "thinner than H = 0.01, the floor of the conductance" in no_film(level(0.004))
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_an_open_minimum_is_reported_everywhere(result: Result, monkeypatch):
     monkeypatch.setattr("tehl.report.page.CAPTIONS", {})
     vague = replace(result, status=VAGUE)

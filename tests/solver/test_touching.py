@@ -215,6 +215,7 @@ def test_friction_where_surfaces_touch_is_the_stated_coefficient():
     assert shared.friction == pytest.approx(0.12, rel=0.05)
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_a_result_with_contact_is_stored_shown_and_drawn(bump: Result, tmp_path):
     save(bump, tmp_path / "bump.nc")
     again = load(tmp_path / "bump.nc")
@@ -300,6 +301,7 @@ def passing() -> tuple[TransientResult, list[Snapshot]]:
     ), kept
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_a_bump_that_passes_touches_in_the_contact_and_not_before(passing):
     run, kept = passing
     least, share = run.start.problem.contact_film.thickness, run.history.asperity_load

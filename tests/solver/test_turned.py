@@ -69,6 +69,7 @@ def test_quarter_turns_and_circles_are_contacts_on_their_axes():
     assert np.array_equal(circles[0].scaled.film, circles[1].scaled.film)
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_report_text_and_list_state_the_axes_of_the_ellipse():
     found = solved(45.0)
     first, second, angle = found.problem.hertz.axes
