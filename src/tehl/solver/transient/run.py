@@ -99,7 +99,6 @@ class Run:
         self.clock = Clock()
         self.problem, self.transient = problem, transient
         self.scaled = scaled = ScaledProblem.of(problem)
-        self.scales = scaled.scales
         smooth = transient.start == "smooth"
         self._pose(finest_grid(scaled, planned(scaled, options)), smooth=smooth)  # fails early
         attempt, self.start = _steady_start(problem, options, rough=not smooth, monitor=monitor)
@@ -115,7 +114,7 @@ class Run:
 
         ``smooth`` is whether the run starts without roughness.
         """
-        transient, scales = self.transient, self.scales
+        transient, scales = self.transient, self.scaled.scales
         self.heights = MovingHeights(self.scaled, grid, transient.entrance if smooth else None)
         self.seconds = transient.stride * grid.dx * scales.half_width_x / scales.speed
         self.steps = number_of_steps(self.scaled, self.seconds)
@@ -323,12 +322,12 @@ class Run:
         steady = self.start.status
         if status.converged and steady.is_vague:
             status = replace(status, message=f"At time zero: {steady.message}", hint=steady.hint)
-        full = (self.level.grid.ny, self.level.grid.nx)
+        full, scales = (self.level.grid.ny, self.level.grid.nx), self.scaled.scales
         return TransientSolution(
             start=self.start,
-            history=self.record.history(self.scales),
-            profiles=self.record.lines(self.scales),
-            frames=self.record.fields(self.scales, full),
+            history=self.record.history(scales),
+            profiles=self.record.lines(scales),
+            frames=self.record.fields(scales, full),
             time_step=self.seconds,
             status=status,
             cost=self.clock.cost(),
