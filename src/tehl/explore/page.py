@@ -69,7 +69,7 @@ class Page:
             except InputError as error:
                 fault = str(error)
         tab = Tab(client.id, CaseText(opened.text), self.files, live)
-        TabPage(tab, client, background, sweeps).build()
+        TabPage(tab, client).build(background, sweeps)
         tab.open(tab.case)
         if fault:
             ui.notify(fault, type="negative", timeout=0, close_button="close")
@@ -80,25 +80,25 @@ class Page:
 class TabPage:
     """The elements of a tab."""
 
-    def __init__(self, tab: Tab, client: Client, background: Solver, sweeps: Sweeps) -> None:
-        self.tab, self.client, self.background, self.sweeps = tab, client, background, sweeps
+    def __init__(self, tab: Tab, client: Client) -> None:
+        self.tab, self.client = tab, client
         self._address = ""
 
-    def build(self) -> None:
-        """Make all parts."""
+    def build(self, background: Solver, sweeps: Sweeps) -> None:
+        """Make all parts; the workers solve what takes long."""
         ui.colors(primary="#1f4e9c", negative="#b3001b")
         ui.add_css(STYLE.read_text(encoding="utf-8"))
         ui.add_body_html(f"<script>{SCRIPT.read_text(encoding='utf-8')}</script>")
         ui.query(".nicegui-content").classes("page")
         request = self.client.request
-        Header(self.tab, self.background).build(request.cookies.get(THEME, "") if request else "")
+        Header(self.tab, background).build(request.cookies.get(THEME, "") if request else "")
         with ui.element("div").classes("columns"):
             with ui.element("section").classes("left").props('aria-label="the contact"'):
-                dialog = SurfaceDialog(self.tab, self.background)
+                dialog = SurfaceDialog(self.tab, background)
                 ControlPanel(self.tab, dialog.open)
             self.middle = ui.element("section").classes("middle").props('aria-label="pictures"')
             with self.middle:
-                self._build_middle()
+                self._build_middle(background, sweeps)
             with ui.element("section").classes("right").props('aria-label="numbers"'):
                 NumberPanel(self.tab, self._sweep)
                 Explanation(self.tab)
@@ -106,7 +106,7 @@ class TabPage:
         self.tab.listeners.append(self._hear)
         ui.on("visited", lambda event: self._visit(plain(event.args)))
 
-    def _build_middle(self) -> None:
+    def _build_middle(self, background: Solver, sweeps: Sweeps) -> None:
         tab = self.tab
         StatusLine(tab).build(self._build_compare)
         with ui.element("div").classes("view-bar"):
@@ -119,8 +119,8 @@ class TabPage:
             self.tabs = tabs
         with ui.element("div").classes("pictures"):
             self.pictures = PicturePanel(tab)
-            self.curves = CurvePanel(tab, self.sweeps)
-            self.movie = MoviePanel(tab, self.background)
+            self.curves = CurvePanel(tab, sweeps)
+            self.movie = MoviePanel(tab, background)
             watcher = ui.element("q-resize-observer")
             watcher.on("resize", self._resized, js_handler=_MEASURE)
         self.tabs.set_value(tab.view)
