@@ -97,6 +97,7 @@ def served(tmp_path_factory, compiled):
 def shared_context(browser):
     made = browser.new_context(viewport={"width": 1440, "height": 900}, accept_downloads=True)
     made.set_default_timeout(PATIENCE)
+    made.kept = None
     made.failures = []
     made.requests = []
     made.on("request", lambda request: made.requests.append(request.url))
@@ -111,13 +112,28 @@ def context(shared_context):
     shared_context.failures.clear()
     yield shared_context
     for page in shared_context.pages:
-        page.close()
+        if page is not shared_context.kept:
+            page.close()
     assert shared_context.failures == []
 
 
 @pytest.fixture
 def page(context, served):
     return opened(context, served.address)
+
+
+@pytest.fixture(scope="module")
+def kept_page(shared_context, served):
+    shared_context.kept = opened(shared_context, served.address)
+    return shared_context.kept
+
+
+@pytest.fixture
+def same_page(context, kept_page):
+    """One page for all tests of a module that leave the case as it is; its view may be any."""
+    del context
+    kept_page.bring_to_front()
+    return kept_page
 
 
 def opened(context, address):

@@ -60,7 +60,8 @@ def test_the_page_is_on_the_loopback_address_only(served):
     assert listening == [f"0100007F:{port:04X}"]
 
 
-def test_no_request_leaves_the_machine(page, context):
+def test_no_request_leaves_the_machine(same_page, context):
+    page = same_page
     for view in ("Pressure", "Centre lines", "Curves", "3-D film"):
         page.get_by_role("tab", name=view).click()
         page.wait_for_timeout(200)
@@ -157,7 +158,8 @@ def test_a_tab_of_a_page_that_was_started_again_names_the_new_address(browser, t
     assert second.end() == 0
 
 
-def test_one_main_and_nothing_to_click_below_24_pixels(page):
+def test_one_main_and_nothing_to_click_below_24_pixels(same_page):
+    page = same_page
     assert page.locator("main").count() == 1
     small = page.evaluate(
         """() => [...document.querySelectorAll(

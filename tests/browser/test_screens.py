@@ -4,6 +4,7 @@
 """
 
 import os
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -37,12 +38,14 @@ def store(page, name):
             image.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_no_view_is_wider_than_the_window(page, size, scheme):
-    width, height = SIZES[size]
-    page.set_viewport_size({"width": width, "height": height})
-    page.emulate_media(color_scheme=scheme)
+def test_no_view_is_wider_than_the_window(page):
+    for scheme, (width, height) in product(("light", "dark"), SIZES.values()):
+        page.set_viewport_size({"width": width, "height": height})
+        page.emulate_media(color_scheme=scheme)
+        check_widths(page, width)
+
+
+def check_widths(page, width):
     for view in VIEWS:
         page.get_by_role("tab", name=view, exact=True).click()
         page.locator(f'.q-tab--active:has-text("{view}")').wait_for()
