@@ -269,6 +269,18 @@ def test_a_tilted_roller_mirrors_and_carries_more_where_the_gap_closes():
     assert first.scaled.film == pytest.approx(second.scaled.film[::-1], rel=2e-3)
     loads = first.scaled.pressure.sum(axis=1)
     assert loads[:64].sum() > 1.2 * loads[65:].sum()
+    # a dry roller makes nearly the same moment
+    scaled = first.scaled_problem
+    grid = Grid(nx=129, ny=129, domain=domain_of(scaled, Options()), mirror=False)
+    dry = dry_pressure(grid, scaled.groups).sum(axis=1) * grid.dx * first.scales.hertz_pressure
+    area = first.scales.half_width_x * first.scales.half_width_y**2
+    moment = first.rolling.tilting
+    assert moment == pytest.approx(dry @ (grid.y * grid.widths) * area, rel=0.05)
+    assert moment == pytest.approx(-second.rolling.tilting, rel=2e-3)
+    assert first.errors.bars["tilting"] < 0.02
+    assert "of the load about x" in as_text(first)
+    even = tehl.solve(roller(20.0, profile=crowned), Options(points=129))
+    assert even.summary()["rolling"]["tilting_moment_n_m"] is None
 
 
 @pytest.mark.parametrize("stretch", [10.0, 20.0, 50.0])

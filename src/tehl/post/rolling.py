@@ -1,4 +1,4 @@
-"""Rolling friction and rolling moment of a line contact or a roller.
+"""Rolling friction and moments of a line contact or a roller.
 
 The pressure lies upstream of the middle, by a shift e: the load makes the moment w e about it. The
 flow by the pressure balances it with a force F on each surface, w e = 2 F R (docs/theory/line.md).
@@ -12,6 +12,7 @@ import numpy as np
 from tehl.contact.options import Domain
 from tehl.estimate.grid import Grid
 from tehl.operators.upstream import nothing, rolling, upstream_of
+from tehl.post.stress.loads import whole_pressure
 from tehl.post.traction import cell_widths
 from tehl.result.solution import Solution
 
@@ -32,6 +33,8 @@ class Rolling:
     """Moment of the pressure over that by the flow, on the grid, less one [-]."""
     T: float
     """F/(E' R) W^(-3/2) [-]: the T* of published formulas."""
+    tilting: float | None
+    """Moment of the load about x [N m], positive if positive y carries more; None if symmetric."""
 
 
 def rolling_friction(result: Solution) -> Rolling | None:
@@ -61,4 +64,11 @@ def rolling_friction(result: Solution) -> Rolling | None:
         tail_share=float(upstream.rolling @ widths) / flow if flow else 0.0,
         closure_error=ratio - 1.0,
         T=force / load * groups.W**-1.5,
+        tilting=None if grid.ny == 1 or problem.is_even_in_y else _tilting(result),
     )
+
+
+def _tilting(result: Solution) -> float:
+    """Return the moment of the load on a roller about x [N m]."""
+    rows = whole_pressure(result) @ cell_widths(result.x)
+    return float(rows @ (cell_widths(result.y) * result.y))

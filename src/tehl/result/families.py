@@ -35,6 +35,25 @@ def of_part(block: str, part: str, keys: str) -> Iterator[Quantity]:
         yield Quantity(f"{block}.{key}", attrgetter(f"{part}.{key}"))
 
 
+def of_rolling() -> Iterator[Quantity]:
+    """Yield the quantities of lines and rollers that roll."""
+    for key, attribute, bar in (
+        ("moment_n_m", "moment", "rolling"),
+        ("tilting_moment_n_m", "tilting", "tilting"),
+    ):
+        name = f"{bar} moment"
+        yield Quantity(
+            f"rolling.{key}",
+            attrgetter(attribute),
+            name=bar,
+            certified="following",
+            unit="N mm",
+            words=words_in(name, "axis list report", bar=name),
+        )
+    yield Quantity("rolling.force_n", attrgetter("force"), name="rolling")
+    yield from plain("rolling", "shift_m tail_share closure_error T")
+
+
 def of_body(number: int) -> Iterator[Quantity]:
     """Yield the quantities of a body that is heated by the contact."""
     name = f"temperature of body {number}"

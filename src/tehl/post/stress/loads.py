@@ -67,7 +67,7 @@ def loads_on(result: Solution, body: int, *, without_shear: bool | None = None) 
         without_shear = left_out(result)
     sign = 1.0 if body == 1 else -1.0  # its surface is the lower or the upper end of the film
     film = np.maximum(result.pressure, 0.0)
-    total, rubbed = film.copy(), rubbing(result)
+    rubbed = rubbing(result)
     stress_x, stress_y = np.zeros_like(film), np.zeros_like(film)
     shear = result.shear
     if shear is not None and not without_shear:
@@ -76,15 +76,24 @@ def loads_on(result: Solution, body: int, *, without_shear: bool | None = None) 
         stress_y = np.where(wet, shear.across - sign * _rolling_across(result, film), 0.0)
     problem = result.problem
     if result.contact is not None and problem.contact_film is not None:
-        total += result.contact.pressure
         stress_x[touching_nodes(result)] = 0.0
-    if result.asperities is not None and problem.asperities is not None:
-        total += result.asperities.pressure
     along, across = sliding_direction(result)
     stress_x -= along * rubbed
     stress_y -= across * rubbed
     part = parts_of_cells(result)
-    return SurfaceLoads(part * total, part * sign * stress_x, part * sign * stress_y)
+    return SurfaceLoads(
+        part * whole_pressure(result), part * sign * stress_x, part * sign * stress_y
+    )
+
+
+def whole_pressure(result: Solution) -> Array:
+    """Return the pressure of oil, asperities and contact together [Pa], (ny, nx)."""
+    problem, total = result.problem, np.maximum(result.pressure, 0.0)
+    if result.contact is not None and problem.contact_film is not None:
+        total += result.contact.pressure
+    if result.asperities is not None and problem.asperities is not None:
+        total += result.asperities.pressure
+    return total
 
 
 def parts_of_cells(result: Solution) -> Array:

@@ -98,6 +98,8 @@ def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
 def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
     """Return the rolling integral of a line or roller [-], and its error by the oil upstream [-].
 
+    Also ``tilting``, the moment of the load of a roller about x [-], where it is not symmetric.
+
     Parameters
     ----------
     level, scaled : Level, ScaledProblem
@@ -113,7 +115,10 @@ def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
     found = rolling(grid.x, film.p, film.h, upstream, grid.widths)[0]
     error = TAIL_ERROR if level.far_field is not None else TAIL_OF_ZERO_EDGE
     tail = float(upstream.rolling @ grid.widths)
-    return {"rolling": found, "rolling_tail": error * abs(tail / found) if found else 0.0}
+    known = {"rolling": found, "rolling_tail": error * abs(tail / found) if found else 0.0}
+    if grid.ny > 1 and not scaled.problem.is_even_in_y:
+        known["tilting"] = level.equations.load.integral(grid.y[:, None] * level.pressure)
+    return known
 
 
 def film_numbers(level: Level) -> dict[str, float]:
