@@ -47,6 +47,15 @@ def test_points_that_cannot_be_coarsened_are_rejected_with_two_that_can(points):
         Options(points=points)
 
 
+@pytest.mark.parametrize(
+    ("points", "fault"), [((545, 129), "at most 4 times"), ((497, 125), "4000 nodes, 2500 at most")]
+)
+def test_points_too_different_along_both_directions_are_rejected(points, fault):
+    assert Options(points=(385, 97)).shape == (97, 385)
+    with pytest.raises(InputError, match=fault):
+        Options(points=points)
+
+
 @pytest.mark.parametrize("points", [0, -129, 16, 100_001])
 def test_points_out_of_range_are_rejected(points):
     with pytest.raises(InputError):

@@ -38,9 +38,9 @@ Interval = tuple[Annotated[float, NO_BOOLEAN], Annotated[float, NO_BOOLEAN]]
 USUAL_ERROR, USUAL_PLAIN_ERROR = 0.01, 0.02
 """Relative error of central and minimum film that is reached by default, and without
 extrapolation."""
-MOST_STRETCH = 4
-"""Most intervals along one direction over those along the other: the coarsest grid, whose Newton
-matrix is dense, has as different ones where cells are not long."""
+MOST_STRETCH, LARGEST_COARSEST = 4, 2500
+"""Most intervals along one direction over those along the other, and most nodes of the coarsest
+grid, which is as different along both where cells are not long: its Newton matrix is dense."""
 LARGEST_ERROR = 0.5
 """Largest error that can be asked for."""
 LARGEST_DOMAIN_EDGE = 1e3
@@ -194,6 +194,13 @@ class Options(Table):
             raise ValueError(
                 f"points = {self.points}: too different along x and y; one direction may have at "
                 f"most {MOST_STRETCH} times the intervals of the other"
+            )
+        common = min(map(coarsenings, lines))
+        coarsest = math.prod((nodes - 1 >> common) + 1 for nodes in lines)
+        if coarsest > LARGEST_COARSEST:
+            raise ValueError(
+                f"points = {self.points}: the coarsest grid would have {coarsest} nodes, "
+                f"{LARGEST_COARSEST} at most; take more nodes along the shorter direction"
             )
         return self
 
