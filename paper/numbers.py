@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 from scipy.ndimage import map_coordinates
-from scipy.signal import find_peaks
 
 from tehl import Result
 from tehl.estimate.film_formulas import film_estimates
@@ -127,6 +126,8 @@ def _spike(x: Array, p: Array) -> float:
 
 def peaks(line: Array, prominence: float) -> Array:
     """Return the places of maxima that rise by ``prominence`` over both their saddles."""
+    from scipy.signal import find_peaks  # noqa: PLC0415 (1 s, with scipy.stats)
+
     found: Array = find_peaks(line, prominence=prominence)[0]
     return found
 
