@@ -1,6 +1,7 @@
 """The view of a transient run: a movie of the film with a slider for the time."""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +19,52 @@ _PERIOD = 0.12
 """Seconds between two frames."""
 
 
+class Player:
+    """A bar with a slider and a button that moves it through the frames of a movie.
+
+    Parameters
+    ----------
+    draw : callable
+        Draws the frame of the slider.
+    """
+
+    def __init__(self, draw: Callable[[], None]) -> None:
+        self.frames = 1
+        with ui.element("div").classes("movie-time") as self.place:
+            self.play = button("", self._toggle, icon="play_arrow", name="play or pause")
+            self.slider = ui.slider(min=0, max=1, step=1, value=0)
+            self.slider.props('aria-label="time"').classes("grow")
+            self.slider.on_value_change(draw)
+            self.clock = ui.label("").classes("clock")
+        self.timer = ui.timer(_PERIOD, self._next, active=False)
+
+    @property
+    def frame(self) -> int:
+        """The frame of the slider."""
+        return min(int(self.slider.value), self.frames - 1)
+
+    def rewind(self, frames: int) -> None:
+        """Go to the first frame of a movie."""
+        self.frames = frames
+        self.slider.props(f"max={frames - 1}")
+        self.slider.set_value(0)
+
+    def pause(self) -> None:
+        """Stay at a frame."""
+        self.timer.deactivate()
+        self.play.props("icon=play_arrow")
+
+    def _toggle(self) -> None:
+        if self.timer.active:
+            self.pause()
+        else:
+            self.timer.activate()
+            self.play.props("icon=pause")
+
+    def _next(self) -> None:
+        self.slider.set_value((self.frame + 1) % self.frames)
+
+
 class MoviePanel(JobPanel):
     """The movie of a tab, solved in the background."""
 
@@ -31,15 +78,9 @@ class MoviePanel(JobPanel):
                 self.halt = button("Cancel", self.cancel)
                 self.halt.set_visibility(False)
                 self.state = ui.label("").classes("status-words")
-            with ui.element("div").classes("movie-time") as self.player:
-                self.play = button("", self._toggle, icon="play_arrow", name="play or pause")
-                self.slider = ui.slider(min=0, max=1, step=1, value=0)
-                self.slider.props('aria-label="time"').classes("grow")
-                self.slider.on_value_change(self.draw)
-                self.clock = ui.label("").classes("clock")
+            self.player = Player(self.draw)
             self.drawing = Drawing()
             self.history = ui.html("", sanitize=False).classes("drawing")
-        self.timer = ui.timer(_PERIOD, self._next, active=False)
         self.place.set_visibility(False)
         tab.listeners.append(self._hear)
 
@@ -51,12 +92,12 @@ class MoviePanel(JobPanel):
         """Show the panel."""
         self.place.set_visibility(self.tab.view == "movie")
         if self.tab.view != "movie":
-            self._pause()
+            self.player.pause()
             return
         problem = self.tab.problem
         is_transient = problem is not None and problem.transient is not None
         self.run.set_visibility(is_transient and not self.halt.visible)
-        self.player.set_visibility(self.movie is not None)
+        self.player.place.set_visibility(self.movie is not None)
         if not is_transient:
             self.state.set_text(
                 "This contact is steady. Give a surface a dent or a wave under “Surfaces” and let "
@@ -79,10 +120,9 @@ class MoviePanel(JobPanel):
 
     def _take(self, movie: Movie) -> None:
         self.movie = movie
-        self.slider.props(f"max={len(movie.times) - 1}")
         self.state.set_text(movie.words)
-        self.slider.set_value(0)
-        self.player.set_visibility(True)
+        self.player.rewind(len(movie.times))
+        self.player.place.set_visibility(True)
         self.draw()
 
     def _end(self, *, cancelled: bool) -> None:
@@ -90,23 +130,6 @@ class MoviePanel(JobPanel):
         self.run.set_visibility(True)
         if cancelled:
             self.state.set_text("cancelled")
-
-    # ---- playing
-
-    def _toggle(self) -> None:
-        if self.timer.active:
-            self._pause()
-        else:
-            self.timer.activate()
-            self.play.props("icon=pause")
-
-    def _pause(self) -> None:
-        self.timer.deactivate()
-        self.play.props("icon=play_arrow")
-
-    def _next(self) -> None:
-        if self.movie is not None:
-            self.slider.set_value((int(self.slider.value) + 1) % len(self.movie.times))
 
     def resize(self, width: float, height: float) -> None:
         """Draw in another size."""
@@ -118,13 +141,13 @@ class MoviePanel(JobPanel):
         movie = self.movie
         if movie is None or self.tab.view != "movie":
             return
-        frame = min(int(self.slider.value), len(movie.times) - 1)
+        frame = self.player.frame
         maps = replace(movie.maps, film=movie.film[frame], pressure=movie.pressure[frame])
         limits = replace(film_limits(movie.maps), low=0.95 * max(_least(movie), 1e-3))
         size = (self.size[0], max(280.0, self.size[1] - 210.0))
         self.drawing.show(film_picture(maps, limits, size))
         self.history.set_content(_history_drawing(movie, frame, (self.size[0], 170.0)))
-        self.clock.set_text(f"{movie.times[frame]:.0f} µs")
+        self.player.clock.set_text(f"{movie.times[frame]:.0f} µs")
 
 
 def _least(movie: Movie) -> float:
