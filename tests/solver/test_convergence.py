@@ -62,6 +62,17 @@ def test_the_share_of_contact_and_not_single_nodes_ends_cycles_where_surfaces_to
     assert not film_converged(fine, coarse)
 
 
+def test_a_share_that_creeps_while_single_nodes_come_and_go_has_its_way_to_go() -> None:
+    """A part of 0.96 is left after each cycle; each second one hardly changes it."""
+    trace = GridTrace()
+    trace.touching.values = [1.0 - 0.96 ** (2 * (cycle // 2)) for cycle in range(26)]
+    left = 1.0 - trace.touching.values[-1]
+    assert trace.touching.iteration_error() == 0.0
+    assert trace.touching.creep(4) == pytest.approx(left, rel=0.3)
+    trace.touching.values[-5:] = [0.5, 0.6, 0.5, 0.6, 0.5]
+    assert trace.touching.creep(4) == 0.0
+
+
 @pytest.mark.parametrize(("coarse", "bar"), [(0.010, 0.35), (0.0, 0.70), (-0.020, 2.0)])
 def test_the_bar_of_a_rough_minimum_far_from_its_limit_is_its_whole_change(
     coarse: float, bar: float

@@ -174,6 +174,14 @@ def test_a_film_that_may_touch_is_heated_on_coarser_grids_too():
     assert rises[65] == pytest.approx(rises[129], rel=0.1)
 
 
+def test_a_contact_that_spreads_as_it_heats_is_followed_to_its_end():
+    """Hot oil leaves it, surfaces touch where it was and rub: its rim moves a little per cycle."""
+    _, _, problem = any_contacts.contact(1, 53, tables_at_once=True)
+    found = solve(problem, Options(points=81))
+    assert found.status.converged
+    assert 0.8 < found.touching.share < 0.9
+
+
 def test_the_oil_stays_balanced_while_heat_and_thinning_still_change():
     """Oil that is solved again at a fixed film, as the heat goes on, loses the load."""
     _, _, problem = any_contacts.contact(1, 87, tables_at_once=True)

@@ -207,7 +207,7 @@ class ContactCycles(Cycles):
 
     def most(self, doublings: int) -> int:
         """Return the most steps on a grid that only provides the start."""
-        return super().most(doublings) if self.is_smoother else MOST_TOUCHING
+        return super().most(doublings) if self.is_smoother else MOST_TOUCHING << doublings
 
 
 class ContactNewton(Cycles):

@@ -50,6 +50,11 @@ lower them: nodes that touch may else follow the orders, and the orders them."""
 MOST_CHANGES = 12
 """Most changes of the nodes that touch, at fixed oil pressure, after a cycle. Before its last sweep
 one is enough: more of them touch where they will not."""
+RUBBING_CYCLES = 3
+"""Cycles per sweep of the energy equation where surfaces touch. Hot oil leaves the contact, the
+surfaces touch where it was, and rub: the rim of the patch moves by a part of a node per cycle, and
+a sweep costs as much as three (M 183, L 10, friction 0.1, 113 nodes: a share of 0.68 after 50
+sweeps and 7 s, after 350 and 16 s with one cycle each)."""
 CONTACT_ACCURACY, RESPONSE_ACCURACY, MOST_CONTACT_PRODUCTS = 0.1, 1e-3, 200
 """Relative residual of the contact pressures of a set, which further cycles reduce; of the response
 to the rigid approach; and most products."""
@@ -88,12 +93,23 @@ class TouchingCycle:
         self.number, self.is_balanced = 0, False
 
     def step(self) -> None:
-        """Perform a cycle, then solve for the contact, and relax what it has changed.
+        """Perform cycles, each with the contact, and relax what they have changed.
 
         Raises DivergedError when the nodes that touch do not settle.
         """
         if self.is_balanced and self.level.factors is None:
             return
+        rubs = self.level.factors is not None and self.share.touching.any()
+        for _ in range(RUBBING_CYCLES if rubs else 1):
+            self._cycle()
+        self._at_fixed_contact(partial(self.level.relax, 1))
+        self._settle(MOST_CHANGES)
+        self._set_orders()
+        self.number += 1
+        if self.closing and self.level.evaluate_residual() < self.closing:
+            self.is_balanced = close_balance(self.level)
+
+    def _cycle(self) -> None:
         self.level.update()
         indented = self._respond()
         self._at_fixed_contact(self.cycle)
@@ -101,12 +117,6 @@ class TouchingCycle:
         self._settle(1)
         self._set_orders()
         self._relax_oil()
-        self._at_fixed_contact(partial(self.level.relax, 1))
-        self._settle(MOST_CHANGES)
-        self._set_orders()
-        self.number += 1
-        if self.closing and self.level.evaluate_residual() < self.closing:
-            self.is_balanced = close_balance(self.level)
 
     def _respond(self) -> Array:
         """Set the response of the contact on the level; return phi, ``grid.shape``."""

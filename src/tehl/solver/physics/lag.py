@@ -16,6 +16,8 @@ from tehl.operators.energy import FilmState
 LARGEST_LOG_STEP = 0.5
 """Largest change of the logarithms of mobility and density per sweep. On a steep front the gradient
 of a pressure not yet converged may increase the mobility by orders of magnitude."""
+LARGEST_BOUNDED_STEP = 2.0
+"""The same where a boundary film bounds the film: it cannot collapse before the pressure falls."""
 
 
 class Lag:
@@ -54,10 +56,14 @@ class Lag:
             heated.mobility[:] *= self.part ** (1.0 - _exponent(heated))
 
     def damped(
-        self, old: properties.Factors, new: properties.Factors, isothermal: Array
+        self,
+        old: properties.Factors,
+        new: properties.Factors,
+        isothermal: Array,
+        largest: float = LARGEST_LOG_STEP,
     ) -> properties.Factors:
         """Return damped factors, see `damped`, and note how far they are behind the new ones."""
-        found = damped(old, new, isothermal, self.damping)
+        found = damped(old, new, isothermal, self.damping, largest)
         if self.heats and self.damping < 1.0:
             now, then = (one.rest + one.mobility * isothermal for one in (found, new))
             self.part = np.minimum(now / then, 1.0) ** (1.0 / _exponent(new))
@@ -70,9 +76,13 @@ def _exponent(film: properties.Heated | properties.Factors) -> Array:
 
 
 def damped(
-    old: properties.Factors, new: properties.Factors, isothermal: Array, damping: float
+    old: properties.Factors,
+    new: properties.Factors,
+    isothermal: Array,
+    damping: float,
+    largest: float = LARGEST_LOG_STEP,
 ) -> properties.Factors:
-    """Return factors between old and new ones, in logarithms, at most `LARGEST_LOG_STEP` away.
+    """Return factors between old and new ones, in logarithms, at most ``largest`` away.
 
     Parameters
     ----------
@@ -82,14 +92,16 @@ def damped(
         Isothermal Newtonian mobility at the pressure of this sweep [-].
     damping : float
         Part of the way [-].
+    largest : float
+        Largest change of a logarithm [-].
     """
 
     def step(before: Array, after: Array) -> Array:
         if damping == 1.0:  # the same without logarithms
-            least, most = math.exp(-LARGEST_LOG_STEP), math.exp(LARGEST_LOG_STEP)
+            least, most = math.exp(-largest), math.exp(largest)
             return np.clip(after, least * before, most * before)
         change = damping * np.log(after / before)
-        return before * np.exp(np.clip(change, -LARGEST_LOG_STEP, LARGEST_LOG_STEP))
+        return before * np.exp(np.clip(change, -largest, largest))
 
     before, after = (one.rest + one.mobility * isothermal for one in (old, new))
     part = step(before, after) / after

@@ -21,10 +21,11 @@ from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import HeatedFilm
 from tehl.operators.transfer import injected, midpoints
 from tehl.solver.cycle.level import Level
-from tehl.solver.physics.lag import Lag
+from tehl.solver.physics.lag import LARGEST_BOUNDED_STEP, LARGEST_LOG_STEP, Lag
 
-COUPLED_FROM = 64
-"""Intervals of the coarsest grid that is heated; coarser ones keep the inlet temperature."""
+COUPLED_FROM, BOUNDED_FROM = 64, 40
+"""Intervals of the coarsest grid that is heated, the smaller number where a boundary film bounds
+the film; coarser ones keep the inlet temperature."""
 RESOLVED_FILM_OVER_FLOOR = 5.0
 """Least film on a heated coarser grid, over the floor of the conductance."""
 FIRST_SWEEPS = 10
@@ -233,7 +234,9 @@ class Coupling:
             Whether a grid with enough nodes along x may be the first.
         """
         nodes = (grid.nx,) if early else grid.points
-        return self.film is not None and min(n for n in nodes if n > 1) > COUPLED_FROM
+        is_bounded = self.scaled.problem.contact_film is not None
+        least = BOUNDED_FROM if is_bounded else COUPLED_FROM
+        return self.film is not None and min(n for n in nodes if n > 1) > least
 
     def kept(self, levels: Sequence[Level]) -> tuple[FilmState, properties.Factors] | None:
         """Return temperatures and factors of the last of ``levels``; None if it is isothermal."""
@@ -402,7 +405,9 @@ class Coupling:
             before = properties.Factors(np.zeros(shape), *np.ones((4, *shape)))  # isothermal
         fine.sources.drift = state.drift()
         if before is not None:
-            factors = self.lag.damped(before, factors, isothermal.eps)
+            bounded = fine.share.bounds_film
+            largest = LARGEST_BOUNDED_STEP if bounded else LARGEST_LOG_STEP
+            factors = self.lag.damped(before, factors, isothermal.eps, largest)
         self._set_factors(levels, factors)
 
     def _set_factors(self, levels: Sequence[Level], factors: properties.Factors) -> None:
