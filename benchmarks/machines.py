@@ -32,7 +32,9 @@ from tehl.base.errors import InputError
 from tehl.base.units import percentage
 from tehl.contact.options import USUAL_ERROR, Domain, Options
 from tehl.estimate.cpu_time import expected_seconds
+from tehl.estimate.film_formulas import inlet_stress
 from tehl.estimate.scaling import ScaledProblem
+from tehl.report.plausibility import UNPHYSICAL_STRESS
 
 BALLS = ((8, 22), (15, 35), (20, 47), (30, 62), (50, 90), (40, 90), (60, 130), (100, 215))
 """Bore and outside diameter of deep groove bearings [mm]: a ball has about 0.3 of the difference,
@@ -138,7 +140,8 @@ def row(
 ) -> dict[str, Any]:
     """Return how a contact ended, what it took, and how far it is from a finer grid."""
     kind, features, problem = drawn
-    groups, started = ScaledProblem.of(problem).groups, time.process_time()
+    scaled, started = ScaledProblem.of(problem), time.process_time()
+    groups = scaled.groups
     found: dict[str, Any] = {
         "number": number,
         "kind": kind,
@@ -146,6 +149,7 @@ def row(
         "M": groups.M,
         "L": groups.L,
         "ellipticity": groups.ellipticity,
+        "stress": inlet_stress(scaled),
     }
     try:
         if problem.transient is not None:
@@ -246,7 +250,11 @@ def reached(rows: list[dict[str, Any]], error: float = USUAL_ERROR) -> Table:
     made.notes.append(f"peak memory of the process {max(peaks, default=0.0):.2g} GB")
     failed = [one for one in rows if one["cause"] is not None]
     silent = sum(not one.get("hint") and one["cause"] != "input" for one in failed)
-    made.notes.append(f"{len(failed)} failed, {silent} of them without a hint")
+    strained = sum(one.get("stress", 0.0) > UNPHYSICAL_STRESS for one in failed)
+    made.notes.append(
+        f"{len(failed)} failed, {silent} of them without a hint, {strained} with oils that would "
+        "carry more than their pressure, of which `tehl explain` warns"
+    )
     made.notes.extend(map(_failure, failed))
     return made
 

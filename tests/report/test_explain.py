@@ -134,6 +134,15 @@ def test_a_usual_thermal_case_is_plausible():
     assert explained(contact=contact, lubricant=eyring, thermal={}).questions == ()
 
 
+@pytest.mark.parametrize(("stress", "is_asked"), [("5 MPa", False), ("1 GPa", True)])
+def test_an_oil_that_carries_more_than_its_pressure_is_reported(stress: str, is_asked: bool):
+    """Not only a Newtonian one: a law that hardly thins gives such stresses too."""
+    oil = {"name": "mineral-oil", "shear": {"law": "eyring", "stress": stress}}
+    contact = ball_tables()["contact"] | {"slide_roll_ratio": 0.5, "load": "200 N"}
+    questions = explained(contact=contact, lubricant=oil, thermal={}).questions
+    assert any("times the pressure before heat" in text for text in questions) == is_asked
+
+
 @pytest.mark.parametrize("slip", [0.0, 0.5])
 def test_a_missing_thermal_table_is_reported_when_the_film_gets_warm(slip: float):
     contact = ball_tables()["contact"] | {"slide_roll_ratio": slip}

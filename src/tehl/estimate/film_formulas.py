@@ -153,6 +153,15 @@ def expected_film(scaled: ScaledProblem) -> float:
     return expected_central_film(scaled.groups) * scaled.scales.film_thickness
 
 
+def inlet_stress(scaled: ScaledProblem) -> float:
+    """Return the shear stress at the inlet temperature over the pressure, both of the mean [-]."""
+    problem, temperature = scaled.problem, scaled.scales.temperature
+    pressure, oil = problem.hertz.mean_pressure, problem.lubricant
+    rate = problem.sliding_speed / expected_film(scaled)
+    viscosity = oil.viscosity.viscosity(pressure, temperature)
+    return float(oil.shear.thinned(viscosity * rate, pressure) / pressure)
+
+
 def likely_film(scaled: ScaledProblem) -> FilmEstimate:
     """Return the film by the first formula whose range has the contact; of [3]_ if none has it."""
     films = film_estimates(scaled.groups, scaled.scales)

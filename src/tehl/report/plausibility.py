@@ -10,7 +10,7 @@ from tehl.contact.problem import ContactProblem
 from tehl.contact.summits import GreenwoodTripp
 from tehl.contact.tables import Surface
 from tehl.estimate.domain import domain_error, domain_of, proposed_domain
-from tehl.estimate.film_formulas import likely_film
+from tehl.estimate.film_formulas import inlet_stress, likely_film
 from tehl.estimate.nodes import expected_bar, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
@@ -21,8 +21,9 @@ SLIDING = 0.02
 """Slide-roll ratio from which on surfaces count as sliding."""
 WARM = 5.0
 """Temperature rise from which on an isothermal film is not plausible [K]."""
-UNPHYSICAL = 0.8e9
-"""Hertz pressure from which on a sliding Newtonian film is not plausible [Pa]."""
+UNPHYSICAL, UNPHYSICAL_STRESS = 0.8e9, 1.0
+"""Hertz pressure from which on a sliding Newtonian film is not plausible [Pa], and stress over the
+pressure, before heat, from which on one that thins is not."""
 FEW_LAYERS = 15
 """Uniform layers below which a temperature profile is under-resolved."""
 SLOWEST_LINE = 5.0
@@ -102,7 +103,7 @@ def questions(
         *_about_groove(scaled.problem),
         *_about_limits(scaled.problem),
         *_about_film(scaled),
-        *_about_sliding(scaled.problem),
+        *_about_sliding(scaled),
         *_about_heat(scaled.problem, heat),
         *_about_bodies(bodies),
         *_about_domain(options, scaled),
@@ -237,7 +238,8 @@ def _about_film(scaled: ScaledProblem) -> Iterator[str]:
         )
 
 
-def _about_sliding(problem: ContactProblem) -> Iterator[str]:
+def _about_sliding(scaled: ScaledProblem) -> Iterator[str]:
+    problem, shear = scaled.problem, scaled.problem.lubricant.shear
     slip, pressure = problem.sliding_speed / problem.entrainment_speed, problem.hertz.pressure
     if abs(problem.motion.sliding_ratio[0]) > 2:
         yield (
@@ -245,11 +247,17 @@ def _about_sliding(problem: ContactProblem) -> Iterator[str]:
             "directions; the ratio is (u_1 - u_2) / u_m, with u_m the mean speed"
         )
     high = pressure >= UNPHYSICAL * (1.0 - LIMIT_ROUNDING)
-    if slip > SLIDING and high and problem.lubricant.shear.is_newtonian:
+    if slip > SLIDING and high and shear.is_newtonian:
         yield (
             f"a Newtonian film slides at {pressure / 1e9:.2g} GPa: traction coefficients above 0.1 "
             "are not physical; state an Eyring or limiting shear stress, "
             'such as shear = { law = "eyring", stress = "5 MPa" }'
+        )
+    elif problem.is_coupled and (stress := inlet_stress(scaled)) > UNPHYSICAL_STRESS:
+        yield (
+            f"lubricant.shear.law = {shear.law}: the shear stress is {stress:.2g} times the "
+            "pressure before heat thins the oil; oils slip at 0.03 to 0.1 of it, state an Eyring "
+            "or limiting shear stress"
         )
 
 

@@ -10,7 +10,7 @@ from tehl.contact.heat import FAR_BODY, FilmEnergy
 from tehl.contact.options import LARGEST_ERROR, USUAL_PLAIN_ERROR
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import chosen_domain
-from tehl.estimate.film_formulas import expected_film
+from tehl.estimate.film_formulas import expected_film, inlet_stress
 from tehl.estimate.grid import Grid
 from tehl.estimate.nodes import expected_points, film_to_resolve
 from tehl.estimate.scaling import ScaledProblem
@@ -202,20 +202,16 @@ def _body_temperature(problem: ContactProblem) -> Iterator[LikelyCause]:
 
 def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
     """Yield the shear law if the stress at the inlet temperature exceeds that of oils."""
-    problem, scales = scaled.problem, scaled.scales
+    problem, stress = scaled.problem, inlet_stress(scaled)
     pressure = problem.hertz.mean_pressure
-    rate = problem.sliding_speed / expected_film(scaled)
-    oil = problem.lubricant
-    viscosity = oil.viscosity.viscosity(pressure, scales.temperature)
-    stress = oil.shear.thinned(viscosity * rate, pressure)
-    if not stress > LARGEST_TRACTION * pressure:
+    if not stress > LARGEST_TRACTION:
         return
     yield LikelyCause(
         cause="shear_stress",
         message=(
-            f"lubricant.shear.law = {oil.shear.law} with slide_roll_ratio = "
+            f"lubricant.shear.law = {problem.lubricant.shear.law} with slide_roll_ratio = "
             f"{problem.slide_roll_ratio:g}: the shear stress at the inlet temperature is "
-            f"{_round(stress / pressure)} times the mean pressure of {pressure / 1e9:.2g} GPa; "
+            f"{_round(stress)} times the mean pressure of {pressure / 1e9:.2g} GPa; "
             f"oils reach at most {LARGEST_TRACTION:g} times."
         ),
         hint=Hint(
