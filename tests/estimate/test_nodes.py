@@ -7,7 +7,8 @@ from tehl.estimate.domain import domain_of, far_field_error
 from tehl.estimate.nodes import EXPECTED_BAR_MARGIN, FAVOURED, LIMITED_RATIO, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
-from tehl.estimate.third_order import third_order_bar
+from tehl.estimate.summits import shared_load
+from tehl.estimate.third_order import LEAST_SHARED, third_order_bar
 from tests.reference import moes_contact, touching_contact
 
 
@@ -48,3 +49,16 @@ def test_asperities_need_more_lines_than_their_film() -> None:
     smooth = case.model_copy(update={"asperities": None})
     plans = [planned(ScaledProblem.of(one), Options(error=0.01)).shape for one in (case, smooth)]
     assert [(ny - 1) / (nx - 1) for ny, nx in plans] == [0.5, 0.25]
+
+
+@pytest.mark.parametrize(("ratio", "dense"), [(2.5, 0.5), (0.1, 0.05), (0.1, 0.5)])
+def test_asperities_lower_the_bar_by_their_load_to_a_quarter_at_least(
+    ratio: float, dense: float
+) -> None:
+    case = touching_contact(1000.0, 8.0, ratio, dense=dense)
+    scaled = ScaledProblem.of(case)
+    smooth = ScaledProblem.of(case.model_copy(update={"asperities": None}))
+    domain = domain_of(smooth, settled(case, Options()))
+    bars = [third_order_bar(one, domain, 129) for one in (scaled, smooth)]
+    assert bars[0] / bars[1] == pytest.approx(max(1.0 - shared_load(scaled).share, LEAST_SHARED))
+    assert (shared_load(scaled).share > 1.0 - LEAST_SHARED) is (ratio * dense == 0.05)
