@@ -40,7 +40,7 @@ planned without a margin, as their bars hardly exceed the expected ones: 13 of 1
 reach 1 % on the next coarser grid, of 5 others one."""
 EXIT_RATIO, EXIT_LOAD, LEAST_QUARTER = 4.0, 0.56, 32
 """a_y/a_x, and its part of M^(1/4), from which the film is thinnest at the exit, and a quarter of
-the lines is enough: of 36 such contacts (M = 41 to 20,000, L up to `LIMITED_SPEED`) it changes the
+the lines is enough: of 32 such contacts (M = 41 to 20,000, L up to `LIMITED_SPEED`) it changes the
 minimum by less than 0.3 %; of 12 others by up to 8 %, as the film is thinnest at the sides. Least
 intervals of that quarter."""
 LINES_BAR, ENOUGH_LINES = 0.2, 1.5
