@@ -22,6 +22,9 @@ FILES = {
 """Files made from a result, by kind."""
 THEME = "tehl-theme"
 """Cookie of the browser with the choice of dark or light."""
+IS_DARK = "document.body.classList.contains('body--dark')"
+LONGEST_REPLY = 20.0
+"""Seconds for a browser that draws to reply."""
 PICTURES = {
     "film": "film",
     "pressure": "pressure",
@@ -86,7 +89,9 @@ class Header(JobPanel):
 
     async def _shade(self) -> None:
         """Change between dark and light; a cookie of the browser keeps the choice."""
-        is_dark = await ui.run_javascript("document.body.classList.contains('body--dark')")
+        is_dark = self.dark.value
+        if is_dark is None:  # as the system has it, which only the browser knows
+            is_dark = await ui.run_javascript(IS_DARK, timeout=LONGEST_REPLY)
         self.dark.value = not is_dark
         theme = "light" if is_dark else "dark"
         ui.run_javascript(
