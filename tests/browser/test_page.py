@@ -137,12 +137,16 @@ def test_a_saved_case_opens_again_and_the_address_reproduces_it(page, context, t
 
 def test_a_faulty_entry_is_a_sentence_beside_its_control(page):
     fault = page.locator(".knob .fault")
-    for valid in ("0.1 kN", "80"):  # another value, and the former one
+    entry = page.get_by_role("textbox", name="load", exact=True)
+    for valid, shown in (("0.1 kN", "100"), ("80", "80")):  # another value, and the former one
         type_into(page, "load", "-3")
         fault.filter(has_text="must be positive").wait_for()
         page.get_by_text("shown is the last valid case").wait_for()
         type_into(page, "load", valid)
         until(lambda: page.locator(".knob .fault:visible").count() == 0)
+        # the page writes the number into the entry, over what is typed meanwhile
+        until(lambda shown=shown: entry.input_value() == shown)
+        solved(page)
 
 
 def test_a_faulty_sweep_is_a_sentence(same_page):
