@@ -80,12 +80,12 @@ _FACTOR = re.compile(
 _SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "⁻": "-", "¹": "1"})
 
 
-@lru_cache(maxsize=256)
 def is_per_turn(text: str) -> bool:
     """Whether ``text`` is a unit of rotational speed, such as rpm or 1/min."""
     return _TURNING.fullmatch(text) is not None
 
 
+@lru_cache(maxsize=256)
 def is_unit(text: str) -> bool:
     """Whether ``text`` is a unit that quantities may have."""
     if not any(letter.isalpha() or letter == "%" for letter in text):

@@ -84,10 +84,8 @@ def worst(stress: Array, settings: Stress, limit: float, weights: Array) -> Wors
     second = _second_invariant(stress)
     most = float(second.max())
     near = np.flatnonzero(second.ravel() >= LEAST_SHEAR**2 * most)
-    every, shear = (
-        stress.reshape(6, -1),
-        _shear(stress.reshape(6, -1)[:, near], second.ravel()[near]),
-    )
+    every = stress.reshape(6, -1)
+    shear = _shear(every[:, near], second.ravel()[near])
     near = near[shear >= (1.0 - UNSURE) * shear.max()]
     shear = largest_shear(every[:, near])
     row, column = np.unravel_index(near[int(np.argmax(shear))], second.shape)
