@@ -19,7 +19,7 @@ from tehl.operators.influence import Influence
 NEAR = (4, 10)
 """Rows and columns from the source within which a cell is split: there the plume is narrow."""
 PARTS_PER_SIDE = 5
-"""Parts of a near cell along each side; odd, so that none has a corner on the axes."""
+"""Parts of a near square cell along each side; odd, so that none has a corner on the axes."""
 
 
 class FullSource:
@@ -84,24 +84,38 @@ def _point_source(
     """Return the integral of exp[-(|B| r - B.x)]/r over cells (rows, columns) from the source.
 
     The 1/r is integrated exactly, with the exponential of the middle; cells near the source are
-    split, so that the plume is resolved.
+    split, so that the plume is resolved, and so are cells beside it that are long in y: the plume
+    is narrower than they are.
     """
-    whole = Influence(cell[1], cell[0], 1.0)
-    x, y = np.float64(cell[1]) * columns[None, :], np.float64(cell[0]) * rows[:, None]
-    table = _at(whole, rows, columns) * _plume(x, y, peclet)
+    table = _split(rows, columns, cell, peclet, (1, 1))
     near_rows = np.flatnonzero(np.abs(rows) <= NEAR[peclet[1] != 0.0])
     near_columns = np.flatnonzero(np.abs(columns) <= NEAR[1])
-    part = Influence(cell[1] / PARTS_PER_SIDE, cell[0] / PARTS_PER_SIDE, 1.0)
-    offsets = np.arange(PARTS_PER_SIDE) - PARTS_PER_SIDE // 2
-    j = (PARTS_PER_SIDE * rows[near_rows][:, None] + offsets[None, :]).ravel()
-    i = (PARTS_PER_SIDE * columns[near_columns][:, None] + offsets[None, :]).ravel()
-    x, y = np.float64(part.dx) * i[None, :], np.float64(part.dy) * j[:, None]
-    pieces = _at(part, j, i) * _plume(x, y, peclet)
-    near = pieces.reshape(len(near_rows), PARTS_PER_SIDE, len(near_columns), PARTS_PER_SIDE).sum(
-        axis=(1, 3)
-    )
+    long = 2 * int(0.5 * cell[0] / cell[1]) + 1
+    if long > 1:
+        table[near_rows] = _split(rows[near_rows], columns, cell, peclet, (long, 1))
+    parts = (PARTS_PER_SIDE * long, PARTS_PER_SIDE)
+    near = _split(rows[near_rows], columns[near_columns], cell, peclet, parts)
     table[np.ix_(near_rows, near_columns)] = near
     return table
+
+
+def _split(
+    rows: IntArray,
+    columns: IntArray,
+    cell: tuple[float, float],
+    peclet: tuple[float, float],
+    parts: tuple[int, int],
+) -> Array:
+    """Return the integral of `_point_source` over cells that are split into ``parts`` (y, x)."""
+    dy, dx = (np.float64(side / count) for side, count in zip(cell, parts, strict=True))
+    j, i = (
+        (count * places[:, None] + np.arange(count) - count // 2).ravel()
+        for places, count in zip((rows, columns), parts, strict=True)
+    )
+    pieces = _at(Influence(float(dx), float(dy), 1.0), j, i)
+    pieces *= _plume(dx * i[None, :], dy * j[:, None], peclet)
+    shape = (len(rows), parts[0], len(columns), parts[1])
+    return np.asarray(pieces.reshape(shape).sum(axis=(1, 3)))
 
 
 def _at(influence: Influence, rows: IntArray, columns: IntArray) -> Array:
