@@ -303,3 +303,10 @@ def test_spin_takes_force_and_power_of_a_traction_drive_until_it_creeps_more():
     moments = [table[creep, 1000.0][1] for creep in (0.002, 0.01, 0.05)]
     assert 1.0 > moments[0] > moments[1] > moments[2] > 0.0
     assert table[0.002, 1000.0][2] > 1.5 * table[0.002, 0.0][2]
+
+
+def test_ridges_along_the_flow_thin_the_film_of_a_ground_tooth():
+    found = example("ground_tooth").main()
+    central = {name: result.film.central for name, result in found.items()}
+    assert central["along"] < 0.95 * central["smooth"]
+    assert central["smooth"] < central["across"]

@@ -1,5 +1,7 @@
 """Deflection by FFT, lines and multilevel sum against the direct sum, and against Hertz."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,6 +9,7 @@ from hypothesis import strategies as st
 
 from tehl.base.typing import Array
 from tehl.contact.options import Domain
+from tehl.contact.roller import Roller
 from tehl.estimate.grid import Grid
 from tehl.operators.deformation import (
     DirectDeformation,
@@ -216,3 +219,23 @@ def test_lines_that_crowd_at_the_ends_of_a_roller_are_bent_as_even_ones(mirror):
     for column in (0, 16):
         there = np.interp(crowded.y, even.y, expected[:, column])
         np.testing.assert_allclose(found[:, column], there, rtol=3e-3)
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+def test_a_sum_by_cosines_between_mirrors_equals_the_direct_sum(mirror):
+    ends = Domain.model_construct(x=(-2.0, 2.0), y=(-1.0, 1.0))
+    grid = Grid(nx=33, ny=17, domain=ends, mirror=mirror)
+    numbers = replace(contact_groups(3.0), roller=Roller(length=1.0, goes_on=True))
+    pressure = np.random.default_rng(3).random(grid.shape)
+    pressure[:, [0, -1]] = 0.0
+    exact, found = np.empty((2, *grid.shape))
+    choose("direct", grid, numbers).deflect(pressure, exact)
+    choose("auto", grid, numbers).deflect(pressure, found)
+    np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-13 * exact.max())
+    # the same pressure on twice the piece is bent alike
+    if not mirror:
+        twice = Grid(nx=33, ny=33, domain=ends, mirror=False)
+        wide = replace(numbers, ellipticity=2.0 * numbers.ellipticity)
+        bent = np.empty(twice.shape)
+        choose("auto", twice, wide).deflect(np.concatenate([pressure, pressure[-2::-1]]), bent)
+        np.testing.assert_allclose(bent[:17], exact, rtol=0.0, atol=1e-6)

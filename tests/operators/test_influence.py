@@ -5,7 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.operators.influence import Influence, dense_matrix, influence_of
+from tehl.operators.influence import (
+    Influence,
+    LineInfluence,
+    MirroredInfluence,
+    dense_matrix,
+    influence_of,
+)
 from tests.operators.contacts import contact_groups, grid_of
 from tests.reference import read
 
@@ -19,6 +25,20 @@ def test_a_square_cell_deflects_its_own_centre_by_four_d_asinh_one():
     side = 0.037
     expected = 4.0 * side * np.arcsinh(1.0)
     assert float(Influence(side, side, 1.0)(0, 0)) == pytest.approx(expected, rel=1e-14)
+
+
+def test_lines_between_mirrors_are_together_a_line_contact():
+    columns, lines = np.arange(60), 32
+    mirrored = MirroredInfluence(0.05, 0.04, 1.0, lines)
+    table = mirrored.table(lines // 2 + 1, columns.size)
+    # the difference of two lines is that of as many images as one likes
+    many = 60 * lines
+    direct = Influence(0.05, 0.04, 1.0).table(lines // 2 + 1 + many, columns.size)
+    rows = np.arange(lines // 2 + 1)
+    images = sum(direct[np.abs(rows + image)] for image in range(-many, many + 1, lines))
+    assert table[1:] - table[0] == pytest.approx(images[1:] - images[0], abs=2e-6)
+    whole = np.concatenate([table, table[-2:0:-1]]).sum(axis=0)
+    assert whole == pytest.approx(LineInfluence(0.05, 1.0)(0, columns), abs=3e-7)
 
 
 def test_a_square_cell_has_the_published_deflection():

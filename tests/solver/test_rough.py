@@ -1,5 +1,7 @@
 """Rough surfaces at rest: convergence of the cycles, and the status of the result."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,13 +11,15 @@ from tehl.api.results import ConvergenceError
 from tehl.api.solvers import solve
 from tehl.base.errors import InputError
 from tehl.cli.text import as_text
-from tehl.contact.options import Options
+from tehl.contact.options import Domain, Options
+from tehl.estimate.grid import Grid
 from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.operators.heights import full_weighting, heights_of
 from tehl.report.page import report_text
 from tehl.solver.cycle.anderson import Anderson
 from tests.cases import ball_tables
+from tests.operators.contacts import FLAT
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.rough import bumpy, rough_film, wave_on
 from tests.solver.runs import film_of, tight
@@ -41,8 +45,19 @@ def test_heights_fade_on_coarser_grids_and_keep_their_mean():
 def test_the_mirror_row_is_weighted_with_its_image():
     half = np.arange(25.0).reshape(5, 5) ** 2
     whole = np.concatenate([half[:0:-1], half])
-    assert full_weighting(half, mirror=True) == pytest.approx(
-        full_weighting(whole, mirror=False)[2:]
+    square = Domain.model_construct(x=(-1.0, 1.0), y=(-1.0, 1.0))
+    fine = Grid(nx=5, ny=9, domain=square, mirror=True)
+    both = replace(fine, mirror=False, domain=FLAT)
+    coarse = full_weighting(whole, both, both.coarser())
+    assert coarse.shape == (5, 3)
+    # the ends of the square are mirrors too
+    assert full_weighting(half, fine, fine.coarser())[:-1] == pytest.approx(coarse[2:-1])
+    assert full_weighting(half, fine, fine.coarser())[-1, 1] == pytest.approx(
+        np.array([0.25, 0.5, 0.25]) @ (half[-1, 1:4] + half[-2, 1:4]) / 2.0
+    )
+    lines = replace(fine, ny=5)  # halved alone, the columns stay
+    assert full_weighting(half, fine, lines)[1] == pytest.approx(
+        0.25 * half[1] + 0.5 * half[2] + 0.25 * half[3]
     )
 
 

@@ -45,6 +45,10 @@ def check_motion(problem: PointContact) -> None:
             contact.has_lines and turned != ["sliding_angle"],
             "with spin the speed changes along a line",
         ),
+        'contact.ends = "mirrored"': (
+            contact.ends == "mirrored",
+            "behind a mirror the surfaces would slide the other way along y",
+        ),
     }
     for name, (is_stated, why) in excluded.items():
         if is_stated:
@@ -100,25 +104,36 @@ def check_spin(problem: PointContact) -> None:
 
 
 def check_line(problem: PointContact) -> None:
-    """Check that a line contact states nothing that lines do not have."""
-    if not problem.contact.is_line:
+    """Check that a line, or a piece of a roller that goes on, states nothing that needs ends."""
+    contact = problem.contact
+    kind = 'contact.type = "line"' if contact.is_line else 'contact.ends = "mirrored"'
+    if not contact.is_line and contact.ends == "open":
         return
     supply, thermal = problem.supply, problem.thermal
     resting = thermal is not None and any(problem.motion.speed_of(one) == 0.0 for one in (1, 2))
+    aside = supply is not None and (
+        supply.track is not None or (contact.is_line and supply.profile is not None)
+    )
+    profile = "profile, " if contact.is_line else ""
     excluded = {
         "supply": (
-            supply is not None and (supply.profile is not None or supply.track is not None),
-            "no oil flows aside, so profile, track and passes have no effect; state layer or ratio",
+            aside,
+            f"no oil flows aside, so {profile}track and passes have no effect; state layer or "
+            "ratio",
         ),
         "thermal": (resting, "a surface at rest has no steady temperature under a line of heat"),
         "cooling": (
             problem.computes_bodies,
             "its track has no width; state the temperature of the body",
         ),
+        "stress": (
+            problem.stress is not None and not contact.is_line,
+            "so far stresses are those below a whole contact",
+        ),
     }
     for name, (is_stated, why) in excluded.items():
         if is_stated:
-            raise ValueError(f'contact.type = "line" and {name} exclude each other: {why}')
+            raise ValueError(f"{kind} and {name} exclude each other: {why}")
 
 
 def check_stress(problem: PointContact) -> None:
@@ -142,9 +157,9 @@ def check_stress(problem: PointContact) -> None:
 
 
 def check_roller(problem: PointContact) -> None:
-    """Check that a roller is longer than its contact is wide."""
+    """Check that a roller is longer than its contact is wide, or a piece that goes on."""
     shape = problem.shape
-    if not isinstance(shape, Roller):
+    if not isinstance(shape, Roller) or shape.goes_on:
         return
     width = 2.0 * problem.hertz.half_width_x
     if not shape.length >= LEAST_LENGTH * width:

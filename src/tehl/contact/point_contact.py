@@ -99,7 +99,12 @@ class PointContact(Table):
             return LINE
         contact = self.contact
         if contact.length is not None:
-            return Roller(length=contact.length, profile=contact.profile, tilt=contact.tilt)
+            return Roller(
+                length=contact.length,
+                profile=contact.profile,
+                tilt=contact.tilt,
+                goes_on=contact.ends == "mirrored",
+            )
         return Ellipse.of(self.radii)
 
     @property

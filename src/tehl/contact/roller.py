@@ -6,7 +6,7 @@ In the units of the line contact under its mean load, b along x and half the len
           |Y| \le 1,
 
 with g from profile and tilt. Beyond its ends there is no roller and no pressure; both bodies are
-half-spaces there too.
+half-spaces there too. A piece of a longer one goes on, mirrored at its ends.
 """
 
 import math
@@ -28,6 +28,8 @@ class Roller(Line):
     """Of the contact [m]."""
     profile: Profile | None = None
     """How it drops towards its ends; None is straight."""
+    goes_on: bool = False
+    """Whether it is a piece of a longer one, mirrored at its ends."""
     tilt: float = 0.0
     """Angle by which the gap opens along y [rad]."""
     force: float = math.nan
@@ -79,6 +81,16 @@ class Roller(Line):
             X and Y, which broadcast [-].
         """
         return 0.5 * x**2 + self.rise(y)
+
+    def radius_squared(self, x: Array, y: Array) -> Array:
+        """Return X^2 + Y^2 as on an ellipse, of a piece that goes on X^2.
+
+        Parameters
+        ----------
+        x, y : Array
+            X and Y, which broadcast [-].
+        """
+        return x**2 + (0.0 if self.goes_on else 1.0) * y**2
 
     @property
     def widest(self) -> float:

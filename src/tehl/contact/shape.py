@@ -35,6 +35,10 @@ class Shape(Protocol):
         """Whether its middle is a line contact under the mean load: film formulas, inlet."""
 
     @property
+    def goes_on(self) -> bool:
+        """Whether it goes on beyond its sides, mirrored at each."""
+
+    @property
     def sides(self) -> tuple[float, float]:
         """Side edges of the domain of a line or of a roller, in half-widths."""
 
@@ -87,7 +91,7 @@ class Ellipse:
     """s of the rim, and C of the gap X^2/2 + C X Y + D kappa^2 Y^2/2; zero on the axes."""
 
     speed_power = 0.75
-    as_line = False
+    as_line = goes_on = False
     sides = LINE_WIDTH
     widest = 1.0
 
@@ -271,7 +275,7 @@ class Line:
     area = 2.0
     speed_power = 0.5
     across = 0.0
-    as_line = True
+    as_line, goes_on = True, False
     sides = LINE_WIDTH
 
     @property

@@ -176,6 +176,9 @@ class Contact(_WithRadii):
     theirs."""
     length: Length | None = None
     """Of a roller [m]: that on which it touches its raceway, without chamfers."""
+    ends: Literal["open", "mirrored"] = "open"
+    """Of a roller: those of its length, or mirrors, behind which it goes on, film and roughness
+    too: a piece of a gear tooth or of a long roller."""
     profile: Profile | None = None
     """How far a roller drops towards its ends; None is straight."""
     tilt: Angle = 0.0
@@ -231,6 +234,7 @@ class Contact(_WithRadii):
         """Check that a roller has a length, and no other contact what rollers have."""
         if self.type != "roller":
             stated = [name for name in ("length", "profile", "tilt") if getattr(self, name)]
+            stated += [] if self.ends == "open" else ["ends"]
             if stated:
                 raise ValueError(
                     f'states {" and ".join(stated)}: only a contact with type = "roller" has ends'
@@ -238,6 +242,12 @@ class Contact(_WithRadii):
             return
         if self.length is None:
             raise ValueError('needs length, on which the roller touches, such as "10 mm"')
+        stated = [name for name in ("profile", "tilt") if getattr(self, name)]
+        if stated and self.ends != "open":
+            raise ValueError(
+                f'states ends = "{self.ends}" and {" and ".join(stated)}: a piece that goes on is '
+                "straight; state one of them"
+            )
         if not abs(self.tilt) <= LARGEST_TILT:
             raise ValueError(
                 f"states tilt = {self.tilt:g} rad: rollers tilt by some 0.001 rad; a bare number "

@@ -164,7 +164,8 @@ def _grids(scaled: ScaledProblem, plan: Options) -> list[Grid]:
     mirror = halves and can_mirror(plan.shape, domain)
     finest, touches = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror), scaled.problem.asperities
     if has_long_cells(finest, scaled.groups.ellipticity, touches=touches is not None):
-        return long_grids(finest, coarsest_of(finest, COARSEST_MESH), by_columns=False)
+        goes_on = scaled.groups.shape.goes_on
+        return long_grids(finest, coarsest_of(finest, COARSEST_MESH, goes_on=goes_on))
     return halved_grids(finest)
 
 

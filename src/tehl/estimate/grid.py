@@ -14,8 +14,11 @@ from tehl.contact.options import ROLLER_ENDS, Domain
 LONG_STRETCH = 5.0
 """Length of a cell along y over that along x beyond which columns are halved before lines: an error
 that changes from line to line is smooth along x there, and a grid with fewer lines lacks it."""
-LEAST_INTERVALS = 16
-"""Fewest intervals of a coarsest grid."""
+LEAST_INTERVALS, LEAST_OF_PIECE = 16, 4
+"""Fewest intervals of a coarsest grid, and across one that goes on beyond its sides: there fewer
+lines are coarser waves alone."""
+SHORT_STRETCH = 0.5
+"""That length below which a cycle halves lines before columns."""
 LEAST_LINES, LEAST_CROWDED = 12, 24
 """Fewest stored intervals across a coarsest grid with long cells: with 253 unknowns for the 625 of
 16 intervals, seven contacts of bearings take as many cycles. Where lines crowd at the ends of a
@@ -196,7 +199,7 @@ def halved_grids(finest: Grid) -> list[Grid]:
     return grids
 
 
-def coarsest_of(finest: Grid, widest: float) -> Grid:
+def coarsest_of(finest: Grid, widest: float, *, goes_on: bool = False) -> Grid:
     """Return the coarsest grid of one with long cells: another one than that of the result.
 
     Parameters
@@ -205,12 +208,15 @@ def coarsest_of(finest: Grid, widest: float) -> Grid:
         The grid of the result.
     widest : float
         Largest mesh width along x [half-widths], unless no grid is coarser.
+    goes_on : bool
+        Whether the contact goes on beyond its sides.
     """
     grid = finest
     while (half := halved(grid, (1, 0))) and (half.dx <= widest or grid is finest):
         grid = half
     is_fine = finest.crowding > 0.0 and 4 * (grid.nx - 1) < finest.nx
     least = LEAST_CROWDED if is_fine else LEAST_LINES
+    least = LEAST_OF_PIECE // 2 if goes_on else least
     while (half := halved(grid, (0, 1))) and half.shape[0] > least:
         grid = half
     return grid
@@ -228,7 +234,8 @@ def halved(grid: Grid, axes: tuple[int, int]) -> Grid | None:
     """
     nx, ny = ((n - 1) >> axis for n, axis in zip(grid.points, axes, strict=True))
     odd = any((n - 1) % 2 and axis for n, axis in zip(grid.points, axes, strict=True))
-    if odd or min(nx, ny) < LEAST_INTERVALS or (grid.mirror and ny % 2):
+    fewest = LEAST_OF_PIECE if grid.is_closed else LEAST_INTERVALS  # along y
+    if odd or nx < LEAST_INTERVALS or ny < fewest or (grid.mirror and ny % 2):
         return None
     return replace(grid, nx=nx + 1, ny=ny + 1)
 
@@ -249,24 +256,27 @@ def has_long_cells(grid: Grid, ellipticity: float, *, touches: bool) -> bool:
     return grid.is_closed or (grid.ny > 1 and stretch > LONG_STRETCH and not touches)
 
 
-def long_grids(finest: Grid, coarsest: Grid, *, by_columns: bool) -> list[Grid]:
+def long_grids(finest: Grid, coarsest: Grid, ellipticity: float | None = None) -> list[Grid]:
     """Return the grids where cells are long, coarsest first.
 
     The last ones of full multigrid differ by halving both columns and lines, so that they show the
     order of the errors; before them comes what is left of one of both. A cycle halves columns
-    first.
+    first, but lines where cells are shorter along y.
 
     Parameters
     ----------
     finest, coarsest : Grid
         The ends of the list.
-    by_columns : bool
-        Whether it is for a cycle.
+    ellipticity : float or None
+        a_y/a_x of the contact, for a cycle.
     """
     grids = [finest]
     while grids[0] != coarsest:
         columns, lines = (a > b for a, b in zip(grids[0].points, coarsest.points, strict=True))
-        half = halved(grids[0], (int(columns), int(lines and not (by_columns and columns))))
+        if ellipticity is not None and columns and lines:
+            columns = ellipticity * grids[0].dy >= SHORT_STRETCH * grids[0].dx
+            lines = not columns
+        half = halved(grids[0], (int(columns), int(lines)))
         assert half is not None  # the coarsest grid follows by halving
         grids.insert(0, half)
     return grids

@@ -134,20 +134,32 @@ def _roller_points(groups: Groups, domain: Domain, options: Options, least: floa
     return next(enough, ROLLER_NODES[-1])
 
 
+def _lines_of_piece(nodes: int, least: float) -> int:
+    """Return the lines of a piece that goes on: the fewest beside its nodes, or for its waves."""
+    found = ((nodes - 1) * part // 4 + 1 for part in (1, 2, 4, 8))
+    return next((lines for lines in found if lines > least), 4 * nodes - 3)
+
+
 def _left_to_the_mesh(groups: Groups, domain: Domain, error: float) -> float:
     """Return the error bar of the film that the edges of the domain leave to the mesh."""
     return max(error - far_field_error(groups, domain), 0.5 * error) / EXPECTED_BAR_MARGIN
 
 
-def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> float:
-    """Return the nodes that put `WAVE_NODES` on the shortest wave, `ROUGH_NODES` at most."""
+def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> tuple[float, float]:
+    """Return the nodes along x and y that put `WAVE_NODES` on the shortest wave.
+
+    They are `ROUGH_NODES` at most, and alike, but for lines and pieces of rollers.
+    """
     problem, scales = scaled.problem, scaled.scales
     waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
     along = (domain.x[1] - domain.x[0]) * scales.half_width_x / min(wave[0] for wave in waves)
     across = (domain.y[1] - domain.y[0]) * scales.half_width_y / min(wave[1] for wave in waves)
     if problem.contact.is_line:
-        return min(WAVE_NODES * along, LINE_ROUGH_NODES)
-    return min(WAVE_NODES * max(along, across), ROUGH_NODES)
+        return min(WAVE_NODES * along, LINE_ROUGH_NODES), 0.0
+    if scaled.groups.shape.goes_on:
+        return min(WAVE_NODES * along, ROUGH_NODES), min(WAVE_NODES * across, ROUGH_NODES)
+    both = min(WAVE_NODES * max(along, across), ROUGH_NODES)
+    return both, both
 
 
 def planned(scaled: ScaledProblem, options: Options) -> Options:
@@ -166,11 +178,13 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     if options.points != "auto":
         return options
     domain, is_line = domain_of(scaled, options), scaled.problem.contact.is_line
-    least = _nodes_of_waves(scaled, domain)
+    least, lines = _nodes_of_waves(scaled, domain)
     if options.order > 2 and not scaled.problem.contact.has_lines:
         return options.on_points(*_third_order_points(scaled, domain, options.target, least))
     if scaled.problem.contact.has_lines and not is_line:
         nodes = _roller_points(scaled.entering, domain, options, least)
+        if scaled.groups.shape.goes_on:
+            return options.on_points(nodes, _lines_of_piece(nodes, lines))
         return options.on_points(nodes, max((nodes - 1) // 2, LEAST_ROWS) + 1)
     nodes = expected_points(
         scaled.entering,

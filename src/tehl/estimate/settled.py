@@ -48,7 +48,7 @@ def _between_ends(problem: ContactProblem, options: Options) -> Options:
     is_steady = problem.transient is None and problem.contact_film is None
     if options.wedge_order is None and options.extrapolate is None and is_steady:
         changes["wedge_order"] = 3
-    if options.error is None and options.points == "auto":
+    if options.error is None and options.points == "auto" and not problem.shape.goes_on:
         changes["error"] = ROLLER_ERROR
     options = options.model_copy(update=changes)
     if domain == "auto" or domain.y == ROLLER_ENDS:
@@ -92,7 +92,8 @@ def crowds_at_ends(problem: ContactProblem) -> bool:
     load with asperities, and be heated by sliding along x.
     """
     others = (problem.supply, problem.cavitation, problem.dynamics)
-    if problem.contact.type != "roller" or any(one is not None for one in others):
+    has_ends = problem.contact.type == "roller" and not problem.shape.goes_on
+    if not has_ends or any(one is not None for one in others):
         return False
     return _is_smooth(problem) and (problem.thermal is None or problem.motion.is_plain)
 

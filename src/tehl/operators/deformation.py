@@ -1,13 +1,13 @@
 """Elastic deflection K P of two half-spaces: direct sum, two sums by FFT, multilevel sum.
 
-All four evaluate  w_m = sum_k K_(m-k) P_k  with the cell influence K of `tehl.operators.influence`.
+All evaluate  w_m = sum_k K_(m-k) P_k  with the cell influence K of `tehl.operators.influence`.
 """
 
 from typing import Protocol
 from weakref import WeakValueDictionary
 
 import numpy as np
-from scipy.fft import dctn, idctn
+from scipy.fft import dct, dctn, idctn
 
 from tehl.base.typing import Array
 from tehl.contact.shape import LINE
@@ -15,7 +15,7 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 from tehl.kernels.lanes import LANES
 from tehl.kernels.summation import sum_across
-from tehl.operators.influence import dense_matrix, influence_of
+from tehl.operators.influence import influence_of, matrix_of
 from tehl.operators.multilevel import MultilevelDeformation
 
 LINES_UP_TO = {True: 200, False: 160}
@@ -48,7 +48,7 @@ class DirectDeformation:
     """Direct sum in O(n^2) operations for n nodes: the reference of the tests."""
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
-        self.matrix = dense_matrix(grid.shape, grid.mirror, influence_of(grid, groups))
+        self.matrix = matrix_of(grid, influence_of(grid, groups))
 
     def deflect(self, pressure: Array, out: Array) -> None:
         """Write the deflection under ``pressure`` to ``out``.
@@ -191,6 +191,33 @@ class CrowdedDeformation:
         out[:] = np.fft.irfft(product.T, self.period)[:, : pressure.shape[1]]
 
 
+class MirroredDeformation:
+    """Exact convolution where all goes on, mirrored at both sides: by cosines along y."""
+
+    def __init__(self, grid: Grid, groups: Groups) -> None:
+        self.period = 2 * (grid.nx - 1)
+        columns = np.arange(self.period)
+        table = influence_of(grid, groups).table(*grid.shape)
+        table = table[:, np.minimum(columns, self.period - columns)]
+        self.spectrum = dct(np.fft.rfft(table).real, 1, axis=0)
+        self.spectrum /= 2 * (grid.shape[0] - 1)  # lines after which all is the same
+
+    def deflect(self, pressure: Array, out: Array) -> None:
+        """Write the deflection under ``pressure`` to ``out``.
+
+        Parameters
+        ----------
+        pressure : Array
+            P at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
+        out : Array
+            Overwritten by the deflection [-], (ny, nx).
+        """
+        parts = np.fft.rfft(dct(pressure, 1, axis=0), self.period)
+        parts *= self.spectrum
+        lines = np.fft.irfft(parts, self.period)[:, : pressure.shape[1]]
+        out[:] = dct(lines, 1, axis=0)
+
+
 CROWDED: "WeakValueDictionary[tuple[Grid, Groups], CrowdedDeformation]" = WeakValueDictionary()
 """Of the levels in use: the dry pressure of a grid shares that of its level."""
 
@@ -240,12 +267,16 @@ def choose(name: str, grid: Grid, groups: Groups, *, exact: bool = False) -> Def
         if known is None:
             CROWDED[grid, groups] = known = CrowdedDeformation(grid, groups)
         return known
+    if name == "direct":
+        return DirectDeformation(grid, groups)
+    if groups.shape.goes_on:
+        return MirroredDeformation(grid, groups)
     found = _choose(name, grid, groups, exact=exact)
     return BetweenEnds(found, grid) if grid.is_closed else found
 
 
 def _choose(name: str, grid: Grid, groups: Groups, *, exact: bool) -> Deformation:
-    if groups.shape is LINE and name != "direct":
+    if groups.shape is LINE:
         name = "lines"  # of one row: the sum by FFT
     if name == "auto":
         aspect = groups.ellipticity * grid.dy / grid.dx
@@ -256,4 +287,4 @@ def _choose(name: str, grid: Grid, groups: Groups, *, exact: bool) -> Deformatio
         return MultilevelDeformation(grid, influence_of(grid, groups))
     if name == "lines":
         return LineDeformation(grid, groups)
-    return FftDeformation(grid, groups) if name == "fft" else DirectDeformation(grid, groups)
+    return FftDeformation(grid, groups)

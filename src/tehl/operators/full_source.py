@@ -18,6 +18,8 @@ from tehl.operators.influence import Influence
 
 NEAR = (4, 10)
 """Rows and columns from the source within which a cell is split: there the plume is narrow."""
+SOURCE_IMAGES = 4
+"""Images on each side that are summed one by one."""
 PARTS_PER_SIDE = 5
 """Parts of a near square cell along each side; odd, so that none has a corner on the axes."""
 
@@ -29,8 +31,8 @@ class FullSource:
     ----------
     shape : (int, int)
         Rows and columns of nodes that are stored.
-    mirror : bool
-        Row 0 is a symmetry line.
+    mirrors : int
+        1 if row 0 is a symmetry line, 2 if all goes on behind the first and the last row.
     cell : (float, float)
         Sides (dy, dx) of a cell, in a_x.
     peclet : (float, float)
@@ -44,15 +46,15 @@ class FullSource:
     def __init__(
         self,
         shape: tuple[int, int],
-        mirror: bool,
+        mirrors: int,
         cell: tuple[float, float],
         peclet: tuple[float, float],
         factor: float,
         line: float = 0.0,
     ) -> None:
         stored, nx = shape
-        ny = 2 * stored - 1 if mirror else stored
-        self.mirror, self.shape = mirror, (ny, nx)
+        ny = 2 * stored - 1 if mirrors == 1 else stored
+        self.mirror, self.shape = mirrors > 0, (ny, nx)
         self.period = (2 * (ny - 1) or 1, 2 * (nx - 1))
         rows = np.arange(ny)
         if peclet[1] != 0.0:  # not even in y
@@ -61,6 +63,7 @@ class FullSource:
         columns = np.arange(2 * (nx - 1))
         columns = np.where(columns < nx, columns, columns - 2 * (nx - 1))
         source = _row_source if np.isinf(cell[0]) else _point_source
+        source = _mirrored_source if mirrors > 1 else source
         table = factor * source(rows, columns, cell, peclet)
         if line > 0.0:
             table[0] -= line * _line_cells(columns, cell[1])
@@ -90,6 +93,8 @@ def _point_source(
     table = _split(rows, columns, cell, peclet, (1, 1))
     near_rows = np.flatnonzero(np.abs(rows) <= NEAR[peclet[1] != 0.0])
     near_columns = np.flatnonzero(np.abs(columns) <= NEAR[1])
+    if not near_rows.size:
+        return table
     long = 2 * int(0.5 * cell[0] / cell[1]) + 1
     if long > 1:
         table[near_rows] = _split(rows[near_rows], columns, cell, peclet, (long, 1))
@@ -116,6 +121,23 @@ def _split(
     pieces *= _plume(dx * i[None, :], dy * j[:, None], peclet)
     shape = (len(rows), parts[0], len(columns), parts[1])
     return np.asarray(pieces.reshape(shape).sum(axis=(1, 3)))
+
+
+def _mirrored_source(
+    rows: IntArray, columns: IntArray, cell: tuple[float, float], peclet: tuple[float, float]
+) -> Array:
+    """Return the same of a cell and its images behind mirrors on the first and the last row.
+
+    Rows of one period together are a `_row_source`, from which the part of images far away follows:
+    they differ little from row to row.
+    """
+    period = 2 * (rows.size - 1)
+    images = range(-SOURCE_IMAGES * period, (SOURCE_IMAGES + 1) * period, period)
+    table = sum(_point_source(np.abs(rows + image), columns, cell, peclet) for image in images)
+    counts = np.full(rows.size, 2.0)
+    counts[[0, -1]] = 1.0
+    missing = _row_source(rows, columns, (math.inf, cell[1]), peclet) - counts @ table
+    return np.asarray(table + missing / period)
 
 
 def _at(influence: Influence, rows: IntArray, columns: IntArray) -> Array:

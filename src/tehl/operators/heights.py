@@ -6,6 +6,7 @@ Theory in docs/theory/roughness.md and docs/theory/numerics-rough.md.
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -59,34 +60,39 @@ class Heights:
         Heights evaluated at the nodes of a coarse grid would be aliased; weighted means fade.
         """
         fields = [self.together]
-        for grid in reversed(grids[:-1]):
-            fields.insert(0, full_weighting(fields[0], mirror=grid.mirror))
+        for coarse, fine in reversed(list(pairwise(grids))):
+            fields.insert(0, full_weighting(fields[0], fine, coarse))
         return fields
 
 
-def full_weighting(fine: Array, *, mirror: bool) -> Array:
-    """Return the 1-2-1 means of ``fine`` at every other node; constant beyond the edges.
+def full_weighting(field: Array, fine: Grid, coarse: Grid) -> Array:
+    """Return the 1-2-1 means of a field at every other node, along y, x or both.
 
     Parameters
     ----------
-    fine : Array
-        Values of shape (2 my - 1, 2 mx - 1).
-    mirror : bool
-        Whether row 0 is the symmetry line y = 0.
+    field : Array
+        Values on ``fine``; constant beyond its edges, mirrored at symmetry lines and closed ends.
+    fine, coarse : Grid
+        Grids, of which ``coarse`` may have as many lines or columns.
 
     Returns
     -------
     Array
-        Of shape (my, mx).
+        Of the shape of ``coarse``.
     """
-    if fine.shape[0] == 1:  # a line contact
-        fine = np.concatenate([fine, fine])
-        return full_weighting(np.concatenate([fine, fine[:1]]), mirror=True)[:1]
-    padded = np.pad(fine, ((1, 1), (1, 1)), mode="edge")
-    if mirror:
-        padded[0] = padded[2]
-    rows = 0.25 * (padded[:-2:2] + 2.0 * padded[1:-1:2] + padded[2::2])
-    return 0.25 * (rows[:, :-2:2] + 2.0 * rows[:, 1:-1:2] + rows[:, 2::2])
+    if coarse.shape[0] < fine.shape[0]:
+        first, last = fine.mirror or fine.is_closed, fine.is_closed
+        south, north = field[1 if first else 0], field[-2 if last else -1]
+        field = _means(np.concatenate([south[None], field, north[None]]))
+    if coarse.nx < fine.nx:
+        field = _means(np.pad(field, ((0, 0), (1, 1)), mode="edge").T).T
+    return field
+
+
+def _means(padded: Array) -> Array:
+    """Return the 1-2-1 means of rows between the first and the last one, at every other row."""
+    found: Array = 0.25 * (padded[:-2:2] + 2.0 * padded[1:-1:2] + padded[2::2])
+    return found
 
 
 def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:

@@ -147,6 +147,77 @@ class LineInfluence(Influence):
         return self(np.arange(rows)[:, None], np.arange(columns)[None, :])
 
 
+class MirroredInfluence(Influence):
+    """Influence of a cell and its images, where all goes on along y, mirrored at both sides.
+
+    Together the lines of a period are a `LineInfluence`, which fixes the constant of the sum.
+
+    Parameters
+    ----------
+    dx, dy, factor : float
+        As of `Influence`.
+    lines : int
+        Lines of a period, twice the distance of the sides.
+    """
+
+    IMAGES = 8
+    """Images on each side that are summed one by one: the others, as points, by an integral."""
+
+    def __init__(self, dx: float, dy: float, factor: float, lines: int) -> None:
+        self.lines = lines
+        super().__init__(dx, dy, factor)
+
+    def __call__(self, dj: "ArrayLike | slice", di: "ArrayLike | slice") -> Array:
+        """Return the influence at offsets of ``dj`` rows and ``di`` columns; slices are ranges."""
+        rows, columns = np.broadcast_arrays(_offsets(dj), _offsets(di))
+        images = self.lines * np.arange(-self.IMAGES, self.IMAGES + 1.0)
+        near = sum(super(MirroredInfluence, self).__call__(rows + far, columns) for far in images)
+        return np.asarray(near + self._far(rows, columns))
+
+    def _far(self, rows: Array, columns: Array) -> Array:
+        r"""Return the influence of the images beyond.
+
+        With D their distance, from m = n + 1 on, and Y = (n + 1/2) D + y
+
+        .. math:: \sum \frac{1}{\sqrt{x^2 + (m D + y)^2}} =
+                  -\frac{1}{D} \ln(Y + \sqrt{x^2 + Y^2}) - \frac{D Y}{24 (x^2 + Y^2)^{3/2}},
+
+        less a constant.
+        """
+        distance, far = self.dy * self.lines, np.zeros(rows.shape)
+        for sign in (-1.0, 1.0):
+            y = (self.IMAGES + 0.5) * distance + sign * self.dy * rows
+            r = np.hypot(self.dx * columns, y)
+            far -= np.log(y + r) / distance + distance * y / (24.0 * r**3)
+        return self.factor * self.dx * self.dy * far
+
+    def table(self, rows: int, columns: int) -> Array:
+        """Return the influence at offsets 0 to ``rows`` - 1 and 0 to ``columns`` - 1.
+
+        Parameters
+        ----------
+        rows, columns : int
+            Number of offsets along y and along x.
+        """
+        offsets = np.arange(rows)
+        found = self._far(*np.broadcast_arrays(offsets[:, None], np.arange(columns)))
+        whole = super().table(rows + self.IMAGES * self.lines, columns)
+        for image in range(-self.IMAGES, self.IMAGES + 1):
+            found += whole[np.abs(offsets + image * self.lines)]
+        return np.asarray(found)
+
+    def matrix(self, grid: Grid) -> Array:
+        """Return the film at each node per unit pressure of each node and its images, (n, n)."""
+        ny, nx = grid.shape
+        rows, i = np.arange(ny), np.arange(nx)
+        table = self.table(ny, nx)
+        lines = table[np.abs(rows[:, None] - rows)]
+        images = rows[:, None] + rows[1:-1]  # those of the sides are their own
+        lines[:, 1:-1] += table[np.minimum(images, self.lines - images)]
+        blocks = lines[:, :, np.abs(i[:, None] - i)].transpose(0, 2, 1, 3)
+        return np.asarray(blocks.reshape(2 * (ny * nx,)))
+
+
 def _end(x: Array) -> Array:
     """Antiderivative of ln |x|; x is not zero, as the ends of cells lie between nodes."""
     found: Array = x * (np.log(np.abs(x)) - 1.0)
@@ -177,6 +248,9 @@ def influence_of(grid: Grid, groups: Groups) -> Influence:
     """
     if groups.shape is LINE:
         return LineInfluence(grid.dx, groups.deflection_factor)
+    if groups.shape.goes_on:
+        dy, lines = groups.ellipticity * grid.dy, 2 * (grid.shape[0] - 1)
+        return MirroredInfluence(grid.dx, dy, groups.deflection_factor, lines)
     return Influence(grid.dx, groups.ellipticity * grid.dy, groups.deflection_factor)
 
 
@@ -192,6 +266,8 @@ def matrix_of(grid: Grid, influence: Influence) -> Array:
         lines, i = influence.between(grid), np.arange(grid.nx)
         blocks = lines[:, :, np.abs(i[:, None] - i)].transpose(0, 2, 1, 3)
         return blocks.reshape(2 * (lines.shape[0] * grid.nx,))
+    if isinstance(influence, MirroredInfluence):
+        return influence.matrix(grid)
     found = dense_matrix(grid.shape, grid.mirror, influence)
     if grid.is_closed:  # as in `tehl.operators.deformation.BetweenEnds`
         found[:, -grid.nx :] *= 0.5

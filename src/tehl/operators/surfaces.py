@@ -184,7 +184,7 @@ class Solids:
         self.sources = tuple(
             FullSource(
                 shape,
-                grid.mirror,
+                2 if groups.shape.goes_on else int(grid.mirror),
                 cell,
                 (side.peclet, side.peclet_y),
                 flux_unit * scales.half_width_x / (2.0 * np.pi * side.conductivity),

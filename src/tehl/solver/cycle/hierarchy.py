@@ -74,7 +74,7 @@ class Hierarchy:
         if found and found[-1] is fine:
             return found
         known = {one.grid: one for one in self.levels} | self.between
-        grids = long_grids(fine.grid, self.levels[0].grid, by_columns=True)
+        grids = long_grids(fine.grid, self.levels[0].grid, self.scaled.groups.ellipticity)
         for grid in grids:
             if grid not in known:
                 made = Level(self._equations(grid), fine.smoother.relaxation)
@@ -114,7 +114,8 @@ class Hierarchy:
         touches = scaled.problem.asperities is not None
         is_long = has_long_cells(finest, scaled.groups.ellipticity, touches=touches)
         if is_long:
-            grids = long_grids(finest, coarsest_of(finest, widest), by_columns=False)
+            goes_on = scaled.groups.shape.goes_on
+            grids = long_grids(finest, coarsest_of(finest, widest, goes_on=goes_on))
         else:
             grids = halved_grids(finest)
             while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= dense:

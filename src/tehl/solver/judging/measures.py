@@ -6,7 +6,6 @@ from typing import Literal
 import numpy as np
 
 from tehl.base.typing import Array
-from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.dry import dry_pressure
 from tehl.operators.energy import FilmState
@@ -134,7 +133,7 @@ def is_thinnest_at_end(level: Level) -> bool:
     """
     film = level.film
     row = int(film.h.min(axis=1).argmin())
-    return row in ends_of(level.grid) and float(film.p[row].max()) > LOADED_END
+    return row in ends_of(level) and float(film.p[row].max()) > LOADED_END
 
 
 def is_thinnest_at_side(level: Level) -> bool:
@@ -146,12 +145,13 @@ def is_thinnest_at_side(level: Level) -> bool:
 
 def is_pressed_at_end(level: Level) -> bool:
     """Whether the pressure is largest at the end of a roller, where it has no limit."""
-    return int(level.film.p.max(axis=1).argmax()) in ends_of(level.grid)
+    return int(level.film.p.max(axis=1).argmax()) in ends_of(level)
 
 
-def ends_of(grid: Grid) -> tuple[int, ...]:
-    """Return the stored rows at the ends of a roller, none of other contacts."""
-    if not grid.is_closed:
+def ends_of(level: Level) -> tuple[int, ...]:
+    """Return the stored rows at the ends of a roller, none of contacts without them."""
+    grid = level.grid
+    if not grid.is_closed or level.equations.groups.shape.goes_on:
         return ()
     return (grid.shape[0] - 1,) if grid.mirror else (0, grid.shape[0] - 1)
 
