@@ -312,6 +312,12 @@ class PointContact(Table):
         return supply and all(roughness.is_even_in_y for roughness in surfaces)
 
     @property
+    def is_pressed_askew(self) -> bool:
+        """Whether it is a roller, and its load has a moment about x."""
+        has_ends = self.contact.type == "roller" and self.contact.ends == "open"
+        return has_ends and not self.is_even_in_y
+
+    @property
     def has_passes(self) -> bool:
         """Whether the same surfaces pass the contact repeatedly."""
         return self.supply is not None and self.supply.passes is not None
