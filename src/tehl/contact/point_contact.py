@@ -312,7 +312,7 @@ class PointContact(Table):
         return supply and all(roughness.is_even_in_y for roughness in surfaces)
 
     @property
-    def is_pressed_askew(self) -> bool:
+    def has_tilting_moment(self) -> bool:
         """Whether it is a roller, and its load has a moment about x."""
         has_ends = self.contact.type == "roller" and self.contact.ends == "open"
         return has_ends and not self.is_even_in_y

@@ -64,7 +64,7 @@ def rolling_friction(result: Solution) -> Rolling | None:
         tail_share=float(upstream.rolling @ widths) / flow if flow else 0.0,
         closure_error=ratio - 1.0,
         T=force / load * groups.W**-1.5,
-        tilting=_tilting(result) if problem.is_pressed_askew else None,
+        tilting=_tilting(result) if problem.has_tilting_moment else None,
     )
 
 

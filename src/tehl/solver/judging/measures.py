@@ -115,7 +115,7 @@ def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
     error = TAIL_ERROR if level.far_field is not None else TAIL_OF_ZERO_EDGE
     tail = float(upstream.rolling @ grid.widths)
     known = {"rolling": found, "rolling_tail": error * abs(tail / found) if found else 0.0}
-    if scaled.problem.is_pressed_askew:
+    if scaled.problem.has_tilting_moment:
         known["tilting"] = level.equations.load.integral(grid.y[:, None] * level.pressure)
     return known
 
