@@ -108,9 +108,12 @@ def test_near_edges_of_a_slender_contact_change_its_film_by_less_than_they_may()
         assert here == pytest.approx(there, rel=far_field_error(case, near))
 
 
-@pytest.mark.parametrize(("load", "ratio"), [(300.0, 1.0), (1000.0, 3.0), (600.0, 25.0)])
-def test_the_nearest_edges_change_a_film_by_less_than_they_may(load, ratio):
-    problem = moes_contact(load, 10.0, radius_ratio=ratio)
+@pytest.mark.parametrize(
+    ("load", "ratio", "angle"),
+    [(300.0, 1.0, 0.0), (1000.0, 3.0, 0.0), (600.0, 25.0, 0.0), (300.0, 3.0, 0.8)],
+)
+def test_the_nearest_edges_change_a_film_by_less_than_they_may(load, ratio, angle):
+    problem = moes_contact(load, 10.0, radius_ratio=ratio, angle=angle)
     case = groups(problem)
     near, far = recommended_domain(case, near=True), recommended_domain(case)
     area, usual = (np.prod([np.ptp(edges) for edges in (one.x, one.y)]) for one in (near, far))

@@ -4,7 +4,14 @@ import pytest
 
 from tehl.contact.options import Options
 from tehl.estimate.domain import domain_of, far_field_error
-from tehl.estimate.nodes import EXPECTED_BAR_MARGIN, FAVOURED, LIMITED_RATIO, planned
+from tehl.estimate.nodes import (
+    EXPECTED_BAR_MARGIN,
+    FAVOURED,
+    FEWEST_LINES,
+    LIMITED_RATIO,
+    LONGEST_CELL,
+    planned,
+)
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.estimate.summits import shared_load
@@ -42,6 +49,18 @@ def test_a_film_that_is_thinnest_at_the_exit_needs_few_lines_and_one_at_the_side
     scaled = ScaledProblem.of(moes_contact(load, speed, radius_ratio=radius_ratio))
     ny, nx = planned(scaled, Options(error=0.01)).shape
     assert (ny - 1) == part * (nx - 1)
+
+
+@pytest.mark.parametrize("ratio", [0.01, 0.1, 0.4])
+@pytest.mark.parametrize("supply", [None, {"ratio": 0.5}])
+def test_the_cells_of_a_wide_contact_are_not_much_longer_along_the_entrainment(
+    ratio: float, supply: dict[str, float] | None
+) -> None:
+    problem = moes_contact(100.0, 10.0, radius_ratio=ratio)
+    tables = problem.model_dump(exclude_none=True) | ({"supply": supply} if supply else {})
+    scaled = ScaledProblem.of(type(problem).model_validate(tables))
+    ny, nx = planned(scaled, Options(error=0.01)).shape
+    assert FEWEST_LINES <= (ny - 1) / (nx - 1) / scaled.groups.ellipticity <= LONGEST_CELL
 
 
 def test_asperities_need_more_lines_than_their_film() -> None:

@@ -28,6 +28,7 @@ def moes_contact(
     *,
     radius_ratio: float = 1.0,
     density: tuple[float, float] = (0.6e-9, 1.7e-9),
+    angle: float = 0.0,
 ) -> ContactProblem:
     """Return steel on steel at M = ``load``, L = ``speed`` with the oil of the reference films.
 
@@ -39,6 +40,8 @@ def moes_contact(
         R_y / R_x; R_x is 20 mm.
     density : (float, float)
         Slope and saturation of the Dowson-Higginson law [1/Pa].
+    angle : float
+        Of the entrainment to the axis of R_x [rad].
     """
     slope, saturation = density
     return ContactProblem.model_validate(
@@ -47,6 +50,7 @@ def moes_contact(
             "contact": {
                 "radius_x": 0.02,
                 "radius_y": 0.02 * radius_ratio,
+                "entrainment_angle": angle,
                 "moes_load": load,
                 "moes_speed": speed,
             },

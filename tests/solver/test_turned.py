@@ -9,6 +9,8 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Domain, Options
+from tehl.estimate.nodes import planned
+from tehl.estimate.scaling import ScaledProblem
 from tehl.report.page import report_text
 from tests.reference import moes_contact, read
 
@@ -78,6 +80,17 @@ def test_report_text_and_list_state_the_axes_of_the_ellipse():
     text = repr(found.problem.explain())
     assert "at 45 deg to the axis of R = 20 mm" in text
     assert text.count("valid for entrainment along an axis") == 2  # Chittenden's holds at angles
+
+
+@pytest.mark.parametrize(("degrees", "load", "speed"), [(60.0, 500.0, 2.0), (90.0, 100.0, 15.0)])
+def test_the_planned_grid_is_enough(degrees, load, speed):
+    problem = moes_contact(load, speed, radius_ratio=11.6, angle=math.radians(degrees))
+    options = Options(error=0.02)
+    lines, columns = planned(ScaledProblem.of(problem), options).shape
+    found = solve(problem, options)  # with another number of lines it diverged
+    assert found.errors.film() <= 0.02
+    assert found.scaled.film.shape == (lines, columns)
+    assert max(one.points for one in found.history) == (columns, lines)
 
 
 def test_small_angles_change_the_film_by_their_square():

@@ -82,14 +82,14 @@ def recommended_domain(
     error : float
         Relative error of the film that is acceptable [-].
     near : bool
-        Whether the edges are as near as that error allows, but for ellipses at an angle; else a
-        contact of M = 200 and more has the same domain as one of M = 100.
+        Whether the edges are as near as that error allows; else a contact of M = 200 and more has
+        the same domain as one of M = 100.
     """
     along, across = gap_widths(groups)
     if groups.shape.as_line:
         return line_domain(along, error, groups.shape)
     larger = max(USUAL_PLAIN_ERROR / error, 1.0) ** (1.0 / 3.0)
-    if near and groups.twist == 0.0:
+    if near:
         inlet, side = (
             1.0 + max(factor / (NEAR_PART * error) - ROUNDED, 0.0) ** 0.25
             for factor in _near_factors(groups)

@@ -49,6 +49,16 @@ bar over the error to leave from which as many lines as columns are planned."""
 LEAST_AT_SIDE = 0.4
 """Least bar of a flooded minimum film at the sides over `lines_bar`: of 5 circles (M = 404 to 673,
 L = 2 to 4) it errs by 0.2 to 0.4 of it, and by up to 4 bars without."""
+WIDE_LINES_BAR, WIDE_MINIMUM = 0.02, (0.07, 0.5, 1.4)
+"""Error of a minimum film of wide contacts by the mesh along y over width^1.5 / H_min: 0.008 to
+0.025 for a_y/a_x = 0.2 and 0.5, M = 20 to 500. Factor and powers of M and a_x/a_y of what is added
+to one in H_central / H_min, within 15 % for them."""
+LINE_PARTS, FEWEST_LINES = (0.0625, 0.125, 0.25, 0.5, 1.0, 2.0), 0.7
+"""Lines over columns from which those of wide and turned contacts are chosen, and their least part
+of a_y/a_x."""
+MOST_LINES, LONGEST_CELL = 2.0, 2.6
+"""Most lines over columns, and most over a_y/a_x: the lines of cells longer than that along x
+couple more across than along, and the cycles diverge (a_y/a_x = 0.2, M = 500, as many lines)."""
 WAVE_NODES, ROUGH_NODES = 20.0, 1024
 """Nodes on the shortest wave of the surfaces, and most nodes for that reason."""
 
@@ -207,6 +217,8 @@ def _third_order_points(
     if half as many along y are then enough.
     """
     left, groups = _left_to_the_mesh(scaled.entering, domain, error), scaled.groups
+    if groups.skew or groups.ellipticity < 1.0:
+        return _wide_or_turned_points(scaled, domain, left, least)
     has_margin = groups.ellipticity < LIMITED_RATIO or groups.L > LIMITED_SPEED
     has_margin = has_margin or scaled.problem.supply is not None
     most = left if has_margin else EXPECTED_BAR_MARGIN * left
@@ -214,6 +226,34 @@ def _third_order_points(
     grids = [(n, _lines(scaled, domain, n, left)) for n in enough]
     grids = grids or [(FAVOURED[-1], FAVOURED[-1])]
     return grids[0] if has_margin else min(grids, key=math.prod)
+
+
+def _wide_or_turned_points(
+    scaled: ScaledProblem, domain: Domain, left: float, least: float
+) -> tuple[int, int]:
+    """Return nodes (nx, ny) of the smallest grid for a bar of a wide or turned contact.
+
+    A starved one has at least as many lines as columns, if its cells may be so short: where its
+    film ends, fewer are not known to be enough.
+    """
+    ratio = scaled.groups.ellipticity
+    fewest = FEWEST_LINES * ratio if ratio < SLENDER_RATIO_OF_NODES else 0.5
+    known = [part for part in LINE_PARTS if part <= most_lines(ratio)] or [LINE_PARTS[0]]
+    starved = scaled.problem.supply is not None
+    parts = [one for one in known if one >= (min(known[-1], 1.0) if starved else fewest)]
+    intervals = [(n - 1, round(part * (n - 1))) for n in FAVOURED if n > least for part in parts]
+    grids = [(nx + 1, ny + 1) for nx, ny in intervals if ny >= LEAST_QUARTER]
+    enough = (
+        (nx, ny)
+        for nx, ny in grids
+        if max(third_order_bar(scaled, domain, nx, ny), side_bar(scaled, domain, ny)) <= left
+    )
+    return min(enough, key=math.prod, default=grids[-1])
+
+
+def most_lines(ratio: float) -> float:
+    """Return the most nodes along y over those along x, for a_y/a_x."""
+    return min(MOST_LINES, LONGEST_CELL * ratio)
 
 
 def _lines(scaled: ScaledProblem, domain: Domain, nodes: int, left: float) -> int:
@@ -261,16 +301,23 @@ def lines_bar(scaled: ScaledProblem, domain: Domain, rows: float) -> float:
 
 
 def side_bar(scaled: ScaledProblem, domain: Domain, rows: float) -> float:
-    """Return the least error bar of a minimum film at the sides; zero with scarce oil.
+    """Return the least error bar of a minimum film at the sides.
+
+    Zero with scarce oil, and for turned ellipses, whose `third_order_bar` contains it.
 
     Parameters
     ----------
     scaled, domain, rows
         As in `lines_bar`.
     """
-    if scaled.problem.supply is not None:
+    if scaled.problem.supply is not None or scaled.groups.skew:
         return 0.0
-    return LEAST_AT_SIDE * lines_bar(scaled, domain, rows)
+    groups = scaled.entering
+    if groups.ellipticity >= 1.0:
+        return LEAST_AT_SIDE * lines_bar(scaled, domain, rows)
+    factor, by_load, by_shape = WIDE_MINIMUM
+    thinner = 1.0 + factor * groups.M**by_load / groups.ellipticity**by_shape
+    return WIDE_LINES_BAR / LINES_BAR * thinner * lines_bar(scaled, domain, rows)
 
 
 def film_to_resolve(scaled: ScaledProblem) -> float | None:

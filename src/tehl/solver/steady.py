@@ -103,7 +103,8 @@ class Climb:
         plan : Options
             With the nodes of the finest grid.
         rungs : tuple of Strategy
-            Those with another order of the wedge have as many nodes along y as along x.
+            Those with another order of the wedge have as many nodes along y as along x, except of
+            wide contacts.
         """
         best: Attempt | None = None
         solved: tuple[Solved, ...] = ()
@@ -112,8 +113,9 @@ class Climb:
                 self.monitor.message(f"falling back to {strategy.description}")
             if strategy.wedge_order is not None and strategy.wedge_order != plan.order:
                 plan = plan.model_copy(update={"wedge_order": strategy.wedge_order})
-                nodes = plan.shape[1]
-                lines = 1 if self.scaled.problem.contact.is_line else nodes
+                lines, nodes = plan.shape
+                if lines > 1 and self.scaled.groups.ellipticity >= 1.0:
+                    lines = nodes
                 plan, solved = self.goal.fitting(plan.on_points(nodes, lines)), ()
             # Newton's method is expensive: the cycles before it are tried to the end
             force = all(one.newton for one in rungs[number + 1 :])

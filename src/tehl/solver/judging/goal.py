@@ -10,7 +10,7 @@ from tehl.contact.options import Domain, Options, can_be_halved
 from tehl.estimate.domain import far_field_error
 from tehl.estimate.entering import entry_error
 from tehl.estimate.memory import USUAL_MEMORY, memory_limit, needed_memory
-from tehl.estimate.nodes import FAVOURED, LIMITED_RATIO, side_bar
+from tehl.estimate.nodes import FAVOURED, LIMITED_RATIO, most_lines, side_bar
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.spin import spin_error
 from tehl.estimate.starvation import supply_error
@@ -49,8 +49,6 @@ FLOODED_PART = 0.7
 """Error to reach of a flooded film to which ``supply.ratio`` is stated, over that of the starved
 one, which has it beside its own: with 0.5 an inner ring (M = 3,700) needs another grid, with 1 a
 starved rig (M = 811)."""
-MOST_LINES = 2
-"""Most nodes along y over those along x."""
 BETWEEN, BETWEEN_MARGIN, MOST_OTHERS = 1.5, 1.05, 2
 """Most intervals along x of another grid over those of the last, as half the mesh width costs four
 times as much; margin of its error bars; and how many other grids are tried."""
@@ -146,7 +144,7 @@ def _expected_bar(hierarchy: Hierarchy, level: Level) -> float:
     """Return the error bar to expect with a wedge of third order; zero where there is no fit."""
     if hierarchy.options.order < 3 or hierarchy.scaled.groups.shape.as_line:
         return 0.0
-    return third_order_bar(hierarchy.scaled, level.grid.domain, level.grid.nx)
+    return third_order_bar(hierarchy.scaled, level.grid.domain, *level.grid.points)
 
 
 @dataclass(slots=True)
@@ -276,7 +274,8 @@ class Goal:
         if others > 0.5 * target or side_bar(self.scaled, grid.domain, grid.ny) < 0.2 * target:
             return False
         finer = 2 * grid.ny - 1
-        return finer <= MOST_LINES * grid.nx and finer <= MOST_NODES_PER_AXIS
+        most = most_lines(self.scaled.groups.ellipticity) * grid.nx
+        return finer <= min(most, MOST_NODES_PER_AXIS)
 
     def other_nodes(self, level: Level, errors: ErrorEstimate | None) -> tuple[int, int] | None:
         """Return nodes (nx, ny) of another grid that is expected to reach the error; None if none.

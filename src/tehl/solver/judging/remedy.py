@@ -48,12 +48,15 @@ def solved_on_other_nodes(
     """
     if failed.status.kind not in ("diverged", "stalled") or not failed.history:
         return None
-    nodes = max(planned(ScaledProblem.of(failed.problem), failed.options).shape)
+    scaled = ScaledProblem.of(failed.problem)
+    lines, nodes = planned(scaled, failed.options).shape
+    part = 1.0 if scaled.groups.ellipticity >= 1.0 else min((lines - 1) / (nodes - 1), 1.0)
+    nodes = nodes if part < 1.0 else max(lines, nodes)
     for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHER_GRIDS]:
         left = end - time.perf_counter()
         if left <= 0.0:
             break
-        points = (more, 1 if failed.problem.contact.is_line else more)
+        points = (more, 1 if failed.problem.contact.is_line else round(part * (more - 1)) + 1)
         monitor.message(f"trying {grid_size(points)}")
         options = failed.options.on_points(*points).model_copy(update={"max_time": left})
         with suppress(TehlError):
