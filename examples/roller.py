@@ -1,7 +1,7 @@
 """A roller with crowned ends, straight and tilted: film and pressure along it.
 
 The crowns keep the pressure at the ends low. A tilt of a thousandth of a radian moves the load to
-one side.
+one side. Where the moment of the load is stated in its place, the tilt follows.
 
 **The middle** has the film of the line contact under the mean load.
 
@@ -19,8 +19,8 @@ import tehl
 TILTS = (0.0, 1e-3)
 
 
-def roller(tilt: float, points: tuple[int, int]) -> tehl.Result:
-    """Return the film of a roller of 10 mm under 5 kN with a tilt [rad]."""
+def roller(points: tuple[int, int], **stated: float) -> tehl.Result:
+    """Return the film of a roller of 10 mm under 5 kN with a tilt [rad], or a moment [N m]."""
     problem = tehl.ContactProblem(
         contact={
             "type": "roller",
@@ -29,7 +29,7 @@ def roller(tilt: float, points: tuple[int, int]) -> tehl.Result:
             "load": "5 kN",
             "entrainment_speed": "4 m/s",
             "profile": {"shape": "crown", "radius": "0.4 m", "straight": "4 mm"},
-            "tilt": tilt,
+            **stated,
         },
         surface_1={"material": "steel"},
         surface_2={"material": "steel"},
@@ -40,7 +40,7 @@ def roller(tilt: float, points: tuple[int, int]) -> tehl.Result:
 
 def main(points: tuple[int, int] = (257, 129)) -> dict[float, tehl.Result]:
     """Return the films over the tilt."""
-    found = {tilt: roller(tilt, points) for tilt in TILTS}
+    found = {tilt: roller(points, tilt=tilt) for tilt in TILTS}
     for tilt, result in found.items():
         load = result.pressure.sum(axis=1)
         half = load.size // 2
@@ -49,7 +49,10 @@ def main(points: tuple[int, int] = (257, 129)) -> dict[float, tehl.Result]:
             f"{1e9 * result.film.minimum:.0f} nm, {load[:half].sum() / load.sum():.0%} of the load "
             "on the side where the gap closes"
         )
-    return found
+    moment = found[TILTS[-1]].rolling.tilting
+    half = roller(points, tilting_moment=0.5 * moment)
+    print(f"half its moment, {0.5 * moment:.2f} N m: tilt {1e3 * half.rolling.tilt:.2f} mrad")
+    return found | {half.rolling.tilt: half}
 
 
 if __name__ == "__main__":
@@ -60,7 +63,7 @@ if __name__ == "__main__":
     for tilt, result in found.items():
         y, middle = 1e3 * result.y, int(np.abs(result.x).argmin())
         film = result.scaled.film.min(axis=1) * result.scales.film_thickness
-        films.plot(y, 1e9 * film, label=f"{1e3 * tilt:g} mrad")
+        films.plot(y, 1e9 * film, label=f"{1e3 * tilt:.2g} mrad")
         pressures.plot(y, 1e-9 * result.pressure[:, middle])
     films.set(ylabel="thinnest film [nm]", ylim=(400, 1000), title="A roller along its axis")
     films.legend(title="tilt")

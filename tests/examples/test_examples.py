@@ -237,11 +237,13 @@ def test_the_rolling_friction_of_lines_hardly_depends_on_the_load():
 
 
 def test_a_tilted_roller_carries_on_one_side():
-    straight, tilted = example("roller").main(points=(129, 65)).values()
+    straight, tilted, half = example("roller").main(points=(129, 65)).values()
     assert straight.film.central == pytest.approx(tilted.film.central, rel=0.02)
     assert tilted.film.minimum < 0.98 * straight.film.minimum
     loads = tilted.pressure.sum(axis=1)
     assert loads[: loads.size // 2].sum() > 0.55 * loads.sum()
+    assert half.rolling.tilting == pytest.approx(0.5 * tilted.rolling.tilting, rel=1e-4)
+    assert 0.0 < half.rolling.tilt < 1e-3
 
 
 def test_a_bearing_list_has_its_films():

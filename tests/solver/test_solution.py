@@ -52,7 +52,7 @@ def test_pressure_and_residual_are_complementary(run):
     level = multigrid(run.problem, run.options).finest
     rows = run.scaled.pressure.shape[0] - level.grid.shape[0]
     level.film.p[:] = run.scaled.pressure[rows:]
-    level.rigid_approach = run.rigid_approach
+    level.rigid[0] = run.rigid_approach
     pose_problem(level)
     level.update()
     np.testing.assert_allclose(level.film.h, run.scaled.film[rows:], rtol=0, atol=1e-9)

@@ -4,7 +4,7 @@ from tehl.base.units import SolidExpansion, quantity
 from tehl.contact.bodies import direction
 from tehl.contact.heat import LEAST_LINE
 from tehl.contact.point_contact import PointContact
-from tehl.contact.roller import Roller
+from tehl.contact.roller import LARGEST_TILT, Roller
 
 SOLID_PART = (
     "solid contact adds a stiffness and a hysteresis of its own, and only those of the oil are "
@@ -157,7 +157,7 @@ def check_stress(problem: PointContact) -> None:
 
 
 def check_roller(problem: PointContact) -> None:
-    """Check that a roller is longer than its contact is wide, or a piece that goes on."""
+    """Check that a roller is longer than its contact is wide, and can carry its moment."""
     shape = problem.shape
     if not isinstance(shape, Roller) or shape.goes_on:
         return
@@ -167,6 +167,29 @@ def check_roller(problem: PointContact) -> None:
             f"contact.length = {1e3 * shape.length:.4g} mm: less than {LEAST_LENGTH:g} times the "
             f"width of the contact, {1e3 * width:.4g} mm; rollers are longer, check length and load"
         )
+    if shape.moment is not None:
+        _check_moment(problem, shape, shape.moment)
+
+
+def _check_moment(problem: PointContact, shape: Roller, moment: float) -> None:
+    """Check that a roller can carry a moment of the load [N m], and that a tilt follows from it."""
+    stated, most = f"contact.tilting_moment = {moment:.4g} N m", 0.5 * problem.load * shape.length
+    if not abs(moment) < most:
+        raise ValueError(
+            f"{stated}: must be less than load times half the length, {most:.4g} N m, which the "
+            "end of the roller alone would carry"
+        )
+    tilt = shape.under(problem.load, problem.radii, problem.reduced_modulus).tilt
+    if not abs(tilt) < LARGEST_TILT * (1.0 - 1e-6):
+        raise ValueError(
+            f"{stated}: tilts the roller by more than {LARGEST_TILT:g} rad; check moment and load"
+        )
+    for name in ("transient", "contact_film"):
+        if getattr(problem, name) is not None:
+            raise ValueError(
+                f"contact.tilting_moment and {name} exclude each other: so far the tilt follows in "
+                "steady films between surfaces that do not touch; state contact.tilt"
+            )
 
 
 def check_dynamics(problem: PointContact) -> None:

@@ -104,6 +104,7 @@ class PointContact(Table):
                 profile=contact.profile,
                 tilt=contact.tilt,
                 goes_on=contact.ends == "mirrored",
+                moment=contact.tilting_moment,
             )
         return Ellipse.of(self.radii)
 

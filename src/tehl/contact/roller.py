@@ -5,12 +5,15 @@ In the units of the line contact under its mean load, b along x and half the len
 .. math:: H = H_{00} + \frac{X^2}{2} + g(Y) + K P, \qquad \int\!\!\int P\, dX dY = \pi, \quad
           |Y| \le 1,
 
-with g from profile and tilt. Beyond its ends there is no roller and no pressure; both bodies are
-half-spaces there too. A piece of a longer one goes on, mirrored at its ends.
+with g from profile and tilt. Where the moment of the load about x is stated, g has the tilt of the
+dry contact with that moment, and that of the film follows. Beyond its ends there is no roller and
+no pressure; both bodies are half-spaces there too. A piece of a longer one goes on, mirrored at its
+ends.
 """
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from tehl.base.typing import Array, np
 from tehl.contact.bodies import Radii
@@ -18,6 +21,14 @@ from tehl.contact.hertz import HertzContact
 from tehl.contact.options import ROLLER_ENDS
 from tehl.contact.profile import Profile, Tabulated
 from tehl.contact.shape import LINE, Line
+
+LARGEST_TILT = 0.05
+"""Largest tilt of a roller [rad]: real ones have 0.0001 to 0.005."""
+SLICES = 201
+"""Slices of a dry roller."""
+TILT_STEPS, EVEN_MOMENT = 28, 1e-12
+"""Halvings of twice the largest tilt, to 4e-10 rad, and moment over load times half the length
+below which there is none."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -32,6 +43,9 @@ class Roller(Line):
     """Whether it is a piece of a longer one, mirrored at its ends."""
     tilt: float = 0.0
     """Angle by which the gap opens along y [rad]."""
+    moment: float | None = None
+    """Moment of the load about x [N m], positive if positive y carries more: `under` then sets the
+    tilt of dry slices. None states the tilt."""
     force: float = math.nan
     half_width: float = math.nan
     amplitude: float = math.nan
@@ -51,19 +65,30 @@ class Roller(Line):
             Load [N], reduced radii [m], and E' [Pa].
         """
         width = self.hertz(load, radii, modulus).half_width_x
-        return replace(
+        found = replace(
             self,
             force=load,
             half_width=width,
             amplitude=2.0 * load / (self.length * math.pi * modulus),
             film_unit=width**2 / radii.x,
         )
+        return found if self.moment is None else replace(found, tilt=dry_tilt(found))
+
+    @property
+    def scaled_moment(self) -> float:
+        """Return the integral of Y P for the stated moment [-]."""
+        return self.load * (self.moment or 0.0) / (0.5 * self.length * self.force)
+
+    @property
+    def tilt_unit(self) -> float:
+        """Return the tilt by which the gap opens by one at Y = 1 [rad]."""
+        return 2.0 * self.film_unit / self.length
 
     @property
     def is_even(self) -> bool:
         """Whether it is symmetric about y = 0."""
         even = not isinstance(self.profile, Tabulated) or self.profile.is_even
-        return even and self.tilt == 0.0
+        return even and self.tilt == 0.0 and not self.moment
 
     def rise(self, y: Array) -> Array:
         """Return g at Y [-]."""
@@ -95,7 +120,7 @@ class Roller(Line):
     @property
     def widest(self) -> float:
         """Half-width of the slice that carries most, over that of the mean load [-]."""
-        return math.sqrt(float(self.share(np.linspace(-1.0, 1.0, 201)).max()))
+        return math.sqrt(float(self.share(np.linspace(-1.0, 1.0, SLICES)).max()))
 
     def share(self, y: Array) -> Array:
         """Return the load of slices at Y over the mean one, if each deflects by itself [-].
@@ -103,7 +128,7 @@ class Roller(Line):
         By C times its load, in units of b^2/R with C = (1 + 2 ln 4 kappa c)/4 and c the part of the
         length that touches.
         """
-        rises = self.rise(np.linspace(-1.0, 1.0, 201))
+        rises = self.rise(np.linspace(-1.0, 1.0, SLICES))
 
         def compliance(high: float) -> float:
             touching = 2.0 * self.length / self.half_width * float((rises < high).mean())
@@ -168,3 +193,25 @@ class Roller(Line):
             R_x [m] and E' [Pa].
         """
         return modulus * radius * self.length
+
+
+@lru_cache(maxsize=16)
+def dry_tilt(roller: Roller) -> float:
+    """Return the tilt with which the slices of a roller under its load carry its moment [rad].
+
+    It is `LARGEST_TILT` at most.
+    """
+    y = np.linspace(-1.0, 1.0, SLICES)
+    wanted = roller.scaled_moment / roller.load
+
+    def excess(tilt: float) -> float:
+        share = replace(roller, tilt=tilt).share(y)
+        return float((share * y).mean() / share.mean()) - wanted
+
+    if abs(excess(0.0)) < EVEN_MOMENT:
+        return 0.0
+    low, high = -LARGEST_TILT, LARGEST_TILT
+    for _ in range(TILT_STEPS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(middle) > 0.0 else (low, middle)
+    return 0.5 * (low + high)

@@ -13,6 +13,7 @@ from tehl.base.units import (
     ForcePerLength,
     Height,
     Length,
+    Moment,
     Number,
     PositiveNumber,
     Pressure,
@@ -25,12 +26,10 @@ from tehl.contact.bodies import Radii
 from tehl.contact.cooling import Cooling
 from tehl.contact.materials import NamedSolid
 from tehl.contact.profile import Profile, Tabulated
+from tehl.contact.roller import LARGEST_TILT
 from tehl.contact.velocities import Velocity, with_motion
 from tehl.roughness import AnyRoughness, Smooth
 from tehl.roughness.model import with_rms
-
-LARGEST_TILT = 0.05
-"""Largest tilt of a roller [rad]: real ones have 0.0001 to 0.005."""
 
 
 class _WithRadii(Table):
@@ -162,6 +161,7 @@ class Contact(_WithRadii):
         "entrainment_angle": "angle entrainment_direction theta",
         "length": "effective_length l_we roller_length",
         "tilt": "misalignment misalignment_angle",
+        "tilting_moment": "moment tilt_moment misalignment_moment",
         "lubricant.temperature": "temperature oil_temperature",
     }
 
@@ -183,6 +183,9 @@ class Contact(_WithRadii):
     """How far a roller drops towards its ends; None is straight."""
     tilt: Angle = 0.0
     """Angle between the axes of a roller and its raceway, by which the gap opens along y [rad]."""
+    tilting_moment: Moment | None = None
+    """Moment of the load of a roller about x [N m], positive if positive y carries more, in place
+    of the tilt, which then follows; zero aligns the roller."""
     load: Force | None = None
     load_per_length: ForcePerLength | None = None
     hertz_pressure: Pressure | None = None
@@ -233,8 +236,7 @@ class Contact(_WithRadii):
     def _check_roller(self) -> None:
         """Check that a roller has a length, and no other contact what rollers have."""
         if self.type != "roller":
-            stated = [name for name in ("length", "profile", "tilt") if getattr(self, name)]
-            stated += [] if self.ends == "open" else ["ends"]
+            stated = self._stated("length", "profile", "tilt", "tilting_moment", "ends")
             if stated:
                 raise ValueError(
                     f'states {" and ".join(stated)}: only a contact with type = "roller" has ends'
@@ -242,7 +244,7 @@ class Contact(_WithRadii):
             return
         if self.length is None:
             raise ValueError('needs length, on which the roller touches, such as "10 mm"')
-        stated = [name for name in ("profile", "tilt") if getattr(self, name)]
+        stated = self._stated("profile", "tilt", "tilting_moment")
         if stated and self.ends != "open":
             raise ValueError(
                 f'states ends = "{self.ends}" and {" and ".join(stated)}: a piece that goes on is '
@@ -252,6 +254,11 @@ class Contact(_WithRadii):
             raise ValueError(
                 f"states tilt = {self.tilt:g} rad: rollers tilt by some 0.001 rad; a bare number "
                 'is in radians, write "0.05 deg"'
+            )
+        if self.tilt != 0.0 and self.tilting_moment is not None:
+            raise ValueError(
+                "states tilt and tilting_moment: the tilt is given, or follows from the moment of "
+                "the load; leave one of them out"
             )
         fault = self.profile.fault(self.length) if isinstance(self.profile, Tabulated) else ""
         if fault:
@@ -266,6 +273,10 @@ class Contact(_WithRadii):
     def has_lines(self) -> bool:
         """Whether it is a line contact or a roller, with a radius along the entrainment alone."""
         return self.type != "point"
+
+    def _stated(self, *names: str) -> list[str]:
+        known = type(self).model_fields
+        return [name for name in names if getattr(self, name) != known[name].default]
 
     def _exactly_one(self, *names: str) -> None:
         stated = [name for name in names if getattr(self, name) is not None]

@@ -87,6 +87,13 @@ class Grid:
         return np.concatenate([[first], 0.5 * (y[1:] + y[:-1]), y[-1:]])
 
     @property
+    def centres(self) -> Array:
+        """Y of the middles of the cells of the stored rows, (rows,)."""
+        faces = self.faces
+        found: Array = 0.5 * (faces[1:] + faces[:-1])
+        return found
+
+    @property
     def inner(self) -> tuple[slice, slice]:
         """Rows and columns of the nodes that are on no edge; the row of a line is on none."""
         rows = slice(0 if self.mirror or self.ny == 1 else 1, max(self.shape[0] - 1, 1))

@@ -110,7 +110,7 @@ def kind(state: State) -> Choice:
             problem.reduced_modulus,
         ).half_width_x
     )
-    keys = ("load", "load_per_length", "moes_load", "length", "profile", "tilt")
+    keys = ("load", "load_per_length", "moes_load", "length", "profile", "tilt", "tilting_moment")
     point = {f"contact.{key}": None for key in keys} | {"contact.hertz_pressure": pressure}
     turned = ("radius_x", "radius_y", "entrainment_angle", "spin_1", "spin_2")
     line = point | {f"contact.{key}": None for key in turned}

@@ -116,6 +116,11 @@ def _is_roller(state: State, _: str) -> bool:
     return state.problem.contact.type == "roller"
 
 
+def _has_tilt(state: State, _: str) -> bool:
+    contact = state.problem.contact
+    return contact.type == "roller" and contact.tilting_moment is None
+
+
 def _is_point(state: State, _: str) -> bool:
     return not _is_rolled(state)
 
@@ -238,7 +243,7 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
         *_solid(2),
         choices.kind,
         Row("contact.length", "length of the roller", "mm;m", (1e-3, 0.2), _is_roller),
-        _even("contact.tilt", "tilt of the roller", "mrad;deg", (0.0, 5e-3), _is_roller),
+        _even("contact.tilt", "tilt of the roller", "mrad;deg", (0.0, 5e-3), _has_tilt),
         choices.roller_profile,
         choices.shape,
         _radius("contact.radius", "reduced radius R"),

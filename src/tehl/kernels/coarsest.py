@@ -1,10 +1,11 @@
-"""Newton step for pressure and rigid approach together, on the coarsest grid.
+"""Newton step for pressure and rigid motions together, on the coarsest grid.
 
 The Reynolds equation of `tehl.kernels.reynolds` is linearised, each conductance and density
-depending on all pressures through the film, and the load balance (Venner and Lubrecht 2000,
-chapter 6: the coarsest grid is solved with the load). The system is dense. Nodes are numbered row
-by row; ``influence[m, k]`` is the film at node m per unit pressure at node k. The neighbours of a
-node are kept in the order here, east, west, north, south, and two nodes upstream along x and y.
+depending on all pressures through the film, and the balances of the load (Venner and Lubrecht 2000,
+chapter 6: the coarsest grid is solved with it) and of its moment, where that is stated. The system
+is dense. Nodes are numbered row by row; ``influence[m, k]`` is the film at node m per unit pressure
+at node k. The neighbours of a node are kept in the order here, east, west, north, south, and two
+nodes upstream along x and y.
 """
 
 from math import sqrt
@@ -43,7 +44,6 @@ class Coarse(NamedTuple):
     second: FlagArray
     stiffness: Array
     asperity: Array
-    lift: Array
     speed: Array
     drift: Array
     south: Array
@@ -54,15 +54,17 @@ class CoarseSystem(NamedTuple):
     """The equations to solve.
 
     ``residual`` (ny, nx) of the Reynolds equation, ``influence`` (n, n), ``frozen`` (ny, nx) of 0
-    and 1, ``area`` (ny, nx) that each node stands for, the load that is missing, and the
-    largest change of the rigid approach with asperities.
+    and 1, ``area`` (ny, nx) that each node stands for, ``lift`` (motions, n), the film by each
+    rigid motion, what is ``missing`` of the load and its moment, (motions,), and the largest change
+    of the film by rigid motions with asperities.
     """
 
     residual: Array
     influence: Array
     frozen: FlagArray
     area: Array
-    missing_load: float
+    lift: Array
+    missing: Array
     nearest: float
     yielding: float
 
@@ -239,7 +241,7 @@ def _subtract_wedge(
 
 
 @helper
-def _add_slopes(system: CoarseSystem, lift: Array, work: Work, row: int, count: int) -> None:
+def _add_slopes(system: CoarseSystem, work: Work, row: int, count: int) -> None:
     """Add the derivatives at node ``near[0]`` to a row of the matrix, of all nodes in ``full``."""
     full, near, by_p, by_h = work.full, work.near, work.by_p, work.by_h
     for n in range(SLOTS):
@@ -248,7 +250,8 @@ def _add_slopes(system: CoarseSystem, lift: Array, work: Work, row: int, count: 
                 full[m] += by_h[n] * system.influence[near[n], m]
     for n in range(SLOTS):
         full[near[n]] += by_p[n]
-        work.matrix[row, count] += by_h[n] * lift[near[n]]
+        for m in range(system.lift.shape[0]):
+            work.matrix[row, count + m] += by_h[n] * system.lift[m, near[n]]
 
 
 @helper
@@ -269,7 +272,7 @@ def _add_upstream(
         _add_face(state, stencil, work, SOUTH)
         if state.stiffness.shape[0] > 0:
             _soften(state, work)
-        _add_slopes(system, state.lift, work, row, count)
+        _add_slopes(system, work, row, count)
         here -= 1
 
 
@@ -277,31 +280,41 @@ def _add_upstream(
 def _assemble(
     state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, sizes: tuple[int, int]
 ) -> None:
-    """Fill matrix and right-hand side: a row per free node, the load balance as the last.
+    """Fill matrix and right-hand side: a row per free node.
 
     ``sizes``: how many nodes are free, and how many nodes a row of the grid has.
     """
-    count, nx = sizes
+    (count, nx), motions = sizes, system.lift.shape[0]
     for row in range(count):
         here = work.free[row]
         for m in range(work.full.shape[0]):
             work.full[m] = 0.0
-        work.matrix[row, count] = 0.0
+        for m in range(motions):
+            work.matrix[row, count + m] = 0.0
         _find_neighbours(here, nx, state.p.shape[0], work.near)
         _slopes(state, stencil, work)
         if state.stiffness.shape[0] > 0:
             _touch(state, system, work)
-        _add_slopes(system, state.lift, work, row, count)
+        _add_slopes(system, work, row, count)
         if stencil.conserves == STEADILY and not work.dry[here]:
             _add_upstream(state, stencil, system, work, (row, count, nx))
         for column in range(count):
             work.matrix[row, column] = work.full[work.free[column]]
         work.rhs[row] = system.residual[here]
-    for column in range(count):
-        here = work.free[column]
-        work.matrix[count, column] = system.area[here] * state.lift[here]
+
+
+@helper
+def _add_balances(system: CoarseSystem, work: Work, count: int) -> None:
+    """Fill the last rows of matrix and right-hand side: load, and moment if it is stated."""
+    motions = system.lift.shape[0]
+    for m in range(motions):
+        for column in range(count):
+            here = work.free[column]
+            work.matrix[count + m, column] = system.area[here] * system.lift[m, here]
+        for n in range(motions):
+            work.matrix[count + m, count + n] = 0.0
+        work.rhs[count + m] = system.missing[m]
     work.matrix[count, count] = -system.yielding
-    work.rhs[count] = system.missing_load
 
 
 @kernel
@@ -321,12 +334,13 @@ def fill_step(state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work,
     if state.stiffness.shape[0] > 0:
         count = _find_carrying(state, system, (stencil.mirror, nx), work)
     _assemble(state, stencil, system, work, (count, nx))
+    _add_balances(system, work, count)
     return count
 
 
 @kernel
 def take_step(state: Coarse, system: CoarseSystem, work: Work, count: int, longest: float) -> float:
-    """Take a solved step; return the change of the rigid approach.
+    """Take a solved step; return the part of it that is taken.
 
     Parameters
     ----------
@@ -341,11 +355,14 @@ def take_step(state: Coarse, system: CoarseSystem, work: Work, count: int, longe
         most = max(most, abs(work.rhs[row]))
     scale = min(1.0, longest / max(most, 1e-300))
     if touches:  # a film that comes nearer than the asperities are high changes everything
-        scale = min(scale, system.nearest / max(abs(work.rhs[count]), 1e-300))
+        moved = 0.0
+        for m in range(system.lift.shape[0]):
+            moved += abs(work.rhs[count + m])
+        scale = min(scale, system.nearest / max(moved, 1e-300))
     for row in range(count):
         here = work.free[row]
         if touches and work.dry[here]:
             state.asperity[here] += scale * work.rhs[row]
             continue
         state.p[here] = max(state.p[here] + scale * work.rhs[row], 0.0)
-    return scale * work.rhs[count]
+    return scale

@@ -96,7 +96,10 @@ ISOTHERMAL = (
             step,
             1.0,
             **_axes(
-                1, *coarsest.Coarse._fields, *coarsest.Work._fields, "residual", "frozen", "area"
+                1,
+                *coarsest.Coarse._fields,
+                *coarsest.Work._fields,
+                *("residual", "frozen", "area", "missing"),
             )
             | _axes(2, "matrix"),
         )

@@ -35,6 +35,8 @@ class Rolling:
     """F/(E' R) W^(-3/2) [-]: the T* of published formulas."""
     tilting: float | None
     """Moment of the load about x [N m], positive if positive y carries more; None if symmetric."""
+    tilt: float | None
+    """Tilt of a roller that follows from that moment [rad]; None where it is stated."""
 
 
 def rolling_friction(result: Solution) -> Rolling | None:
@@ -65,10 +67,13 @@ def rolling_friction(result: Solution) -> Rolling | None:
         closure_error=ratio - 1.0,
         T=force / load * groups.W**-1.5,
         tilting=_tilting(result) if problem.has_tilting_moment else None,
+        tilt=result.tilt,
     )
 
 
 def _tilting(result: Solution) -> float:
     """Return the moment of the load on a roller about x [N m]."""
-    rows = whole_pressure(result) @ cell_widths(result.x)
-    return float(rows @ (cell_widths(result.y) * result.y))
+    rows, y = whole_pressure(result) @ cell_widths(result.x), result.y
+    faces = np.concatenate([y[:1], 0.5 * (y[1:] + y[:-1]), y[-1:]])
+    # of width times middle of each cell
+    return float(rows @ (0.5 * np.diff(faces**2)))

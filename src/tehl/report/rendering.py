@@ -22,6 +22,7 @@ UNITS = {
     "newton_per_um": (1e-6, " N/µm"),
     "newton_second_per_m": (1.0, " N s/m"),
     "newton_mm": (1e3, " N mm"),
+    "mrad": (1e3, " mrad"),
     "share": (100.0, " %"),
     "plain": (1.0, ""),
 }
@@ -37,6 +38,7 @@ FILTERS = {
     "N/um": "newton_per_um",
     "N s/m": "newton_second_per_m",
     "N mm": "newton_mm",
+    "mrad": "mrad",
     "%": "share",
 }
 """Names of the filters by the units of `tehl.result.quantities`."""

@@ -37,17 +37,17 @@ def of_part(block: str, part: str, keys: str) -> Iterator[Quantity]:
 
 def of_rolling() -> Iterator[Quantity]:
     """Yield the quantities of lines and rollers that roll."""
-    for key, attribute, bar in (
-        ("moment_n_m", "moment", "rolling"),
-        ("tilting_moment_n_m", "tilting", "tilting"),
+    for key, attribute, bar, unit, name in (
+        ("moment_n_m", "moment", "rolling", "N mm", "rolling moment"),
+        ("tilting_moment_n_m", "tilting", "tilting", "N mm", "tilting moment"),
+        ("tilt_rad", "tilt", "tilt", "mrad", "tilt"),
     ):
-        name = f"{bar} moment"
         yield Quantity(
             f"rolling.{key}",
             attrgetter(attribute),
             name=bar,
             certified="following",
-            unit="N mm",
+            unit=unit,
             words=words_in(name, "axis list report", bar=name),
         )
     yield Quantity("rolling.force_n", attrgetter("force"), name="rolling")

@@ -19,6 +19,7 @@ UNITS = {
     "N/um": (1e-6, 0.0),
     "N s/m": (1.0, 0.0),
     "N mm": (1e3, 0.0),
+    "mrad": (1e3, 0.0),
     "%": (100.0, 0.0),
 }
 """Units in which people read quantities: factor from SI, and what is added."""

@@ -207,6 +207,8 @@ class Extras:
     """Supply over that of the flooded contact, and balance of the oil; None like ``oil``."""
     bodies: tuple[float, float] | None = None
     """Temperatures of both bodies that follow from their heat [K]; None where all are stated."""
+    tilt: float | None = None
+    """Tilt of a roller that follows from the moment of its load [rad]; None where it is stated."""
     passes: PassHistory | None = None
     """Earlier passes of the same surfaces and this one; None of a single film."""
     stress: BodyStress | None = None
@@ -292,6 +294,7 @@ class Solution:
     oil = _Of[FilmOil | None]("extras")
     supplied = _Of[Supplied | None]("extras")
     bodies = _Of[tuple[float, float] | None]("extras")
+    tilt = _Of[float | None]("extras")
     passes = _Of[PassHistory | None]("extras")
     stress = _Of[BodyStress | None]("extras")
     dynamics = _Of[FilmDynamics | None]("extras")

@@ -26,6 +26,7 @@ _WORDS = (
         "contact.sliding_angle": "sliding_angle skew_angle",
         "contact.length": "length roller_length effective_length l_we",
         "contact.tilt": "tilt misalignment",
+        "contact.tilting_moment": "tilting_moment misalignment_moment",
         "contact.profile.shape": "profile roller_profile",
         "contact.radius": "radius r reduced_radius",
         "contact.radius_x": "r_x rx radius_x reduced_radius_x",

@@ -1,4 +1,4 @@
-"""The solver of the coarsest level: Newton's method for pressure and rigid approach together."""
+"""The solver of the coarsest level: Newton's method for pressure and rigid motions together."""
 
 from typing import NamedTuple
 
@@ -33,11 +33,12 @@ class Factored(NamedTuple):
 
 
 class CoarsestSolver:
-    """Newton's method for pressure and rigid approach together on the coarsest level.
+    """Newton's method for pressure and rigid motions together on the coarsest level.
 
     The equations are L(P, H00 + K P + g) = f at the wet nodes and sum(P) dx dy = w, with the dense
     matrix K and the derivatives of the conductance by pressure and film. The rigid approach moves
-    all pressures at once, so no local relaxation finds it; here it costs one more unknown.
+    all pressures at once, so no local relaxation finds it; here it costs one more unknown. So does
+    a tilt that follows from the moment of the load.
     """
 
     def __init__(self, level: Level) -> None:
@@ -86,7 +87,9 @@ class CoarsestSolver:
             influence=self.influence,
             frozen=level.smoother.frozen.ravel(),
             area=np.repeat(level.grid.widths * level.grid.dx, level.grid.nx),
-            missing_load=level.missing_load(),
+            lift=np.repeat(level.equations.modes, level.grid.nx, axis=1)
+            * (1.0 if answer is None else answer.lift.ravel()),
+            missing=level.missing(),
             yielding=0.0 if answer is None else answer.stiffness,
             nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
         )
@@ -95,9 +98,10 @@ class CoarsestSolver:
         """Return the linearised system of the present state."""
         level = self.level
         nodes, nx = level.film.p.size, level.film.p.shape[1]
+        unknowns = nodes + level.rigid.size
         work = Work(
-            matrix=np.empty((nodes + 1, nodes + 1)),
-            rhs=np.empty(nodes + 1),
+            matrix=np.empty((unknowns, unknowns)),
+            rhs=np.empty(unknowns),
             free=np.empty(nodes, np.int64),
             full=np.empty(nodes),
             near=np.empty(SLOTS, np.int64),
@@ -109,32 +113,35 @@ class CoarsestSolver:
         count = fill_step(state, level.equations.robust, self._system(), work, nx)
         with one_thread():
             # a row is a column of LAPACK
-            factors, pivots, _ = dgetrf(work.matrix[: count + 1, : count + 1].T)
+            used = count + level.rigid.size
+            factors, pivots, _ = dgetrf(work.matrix[:used, :used].T)
         return Factored(state, work._replace(matrix=np.empty((0, 0))), count, factors, pivots)
 
     def _take(self, known: Factored) -> float:
         """Take a step of limited length by a linearised system; return the largest change.
 
-        Of the pressures [-], and of the rigid approach relatively, where that is above one.
+        Of the pressures [-], and of rigid motions over the largest, where that is above one.
         """
         level, film = self.level, self.level.film
         level.update()
         system, work, free = self._system(), known.work, known.work.free[: known.size]
-        before, approach = level.pressure.copy(), level.rigid_approach
+        before, rigid = level.pressure.copy(), level.rigid.copy()
         carried = film.p.copy(), film.asperity.copy()
+        used = known.size + rigid.size
         work.rhs[: known.size] = np.where(work.dry[free], 0.0, system.residual[free])
-        work.rhs[known.size] = system.missing_load
-        step, _ = dgetrs(known.factors, known.pivots, work.rhs[: known.size + 1], trans=1)
-        work.rhs[: known.size + 1] = step
+        work.rhs[known.size : used] = system.missing
+        step, _ = dgetrs(known.factors, known.pivots, work.rhs[:used], trans=1)
+        work.rhs[:used] = step
         state = known.state._replace(p=film.p.ravel(), asperity=film.asperity.ravel())
-        change = take_step(state, system, work, known.size, LONGEST_STEP)
+        part = take_step(state, system, work, known.size, LONGEST_STEP)
+        change = part * work.rhs[known.size : used]
         level.move(change)
         if level.equations.asperities is not None:
             self._shorten(carried, change)
-        moved = abs(level.rigid_approach - approach) / max(1.0, abs(level.rigid_approach))
-        return max(float(np.abs(level.pressure - before).max()), moved)
+        moved = np.abs(level.rigid - rigid).max() / max(1.0, np.abs(level.rigid).max())
+        return max(float(np.abs(level.pressure - before).max()), float(moved))
 
-    def _shorten(self, before: tuple[Array, Array], change: float) -> None:
+    def _shorten(self, before: tuple[Array, Array], change: Array) -> None:
         """Halve a step until the asperities, steep as they are, carry no more than is likely."""
         level, film = self.level, self.level.film
         after = film.p.copy(), film.asperity.copy()
@@ -143,7 +150,7 @@ class CoarsestSolver:
             level.update()
             if film.asperity.max() <= largest:
                 return
-            change *= 0.5
+            change = 0.5 * change
             level.move(-change)
             for one, old, new in zip((film.p, film.asperity), before, after, strict=True):
                 new[:] = 0.5 * (old + new)

@@ -69,8 +69,8 @@ class Roughness:
     ) -> None:
         self.levels, self.settings, self.heights = levels, settings, heights
         self.first = self.first_comparable = len(levels)
-        # level, pressure and rigid approach of the smooth film before the heights were raised
-        self.smooth: tuple[int, Array, float, Array] | None = None
+        # level, pressure and rigid motions of the smooth film before the heights were raised
+        self.smooth: tuple[int, Array, Array, Array] | None = None
         self.points, self.amplitude = np.inf, 0.0
         if heights is not None:
             fields = heights.on([level.grid for level in levels])
@@ -169,11 +169,11 @@ class Roughness:
         if self.smooth is None:
             from_dry_pressure(self.levels[number], expected_film)
             return False
-        known, pressure, approach, asperity = self.smooth
+        known, pressure, rigid, asperity = self.smooth
         for level in self.levels[known + 1 : number + 1]:
             pressure = refine(pressure, level.grid)
             asperity = refine(asperity, level.grid) if asperity.size else asperity
-        self.levels[number].set_state(pressure, approach, asperity)
+        self.levels[number].set_state(pressure, rigid, asperity)
         return True
 
 

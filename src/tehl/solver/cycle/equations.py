@@ -1,8 +1,9 @@
 """The discrete equations on one grid: operators and right-hand sides.
 
     L(P, H) = f                       Reynolds: (eps P_x)_x + (eps P_y)_y/kappa^2 - (rho H)_x,
-    H - H00 - K P = g                 film, K the elastic deflection of the half-spaces,
+    H - H00 - T Y - K P = g           film, K the elastic deflection of the half-spaces,
     sum(P) dx dy = w                  load balance
+    sum(Y P) dx dy = m                moment balance, where it is stated; else T = 0
 
 (docs/theory/model.md), with P >= 0 and complementarity where the film is cavitated.
 """
@@ -50,6 +51,11 @@ class Equations:
     """Integral of the pressure."""
     target: float
     """Integral of P over the domain [-]."""
+    modes: Array
+    """Film by each rigid motion over its size, (motions, ny): one by the approach, and Y by the
+    tilt of a roller whose moment is stated."""
+    moments: Array
+    """Integral of P times each motion but the approach, (motions - 1,) [-]."""
     gap: Array
     """Undeformed gap [-], ``grid.shape``."""
     far_field: Edges | None
@@ -111,6 +117,7 @@ class Equations:
         groups, oil, moment = scaled.groups, entering_oil(scaled), scaled.moment
         conserves = scaled.problem.conserves_oil
         starved, film = oil is not None, scaled.problem.contact_film
+        modes, moments = rigid_motions(grid, groups)
         return cls(
             grid=grid,
             groups=groups,
@@ -129,6 +136,8 @@ class Equations:
             ),
             load=Load(grid),
             target=moment.load * groups.shape.load,
+            modes=modes,
+            moments=moments,
             gap=gap(grid, groups, moment.curvature),
             far_field=(
                 far_field(grid, scaled.entering, moment.speed)
@@ -142,6 +151,20 @@ class Equations:
             floor=_floor(scaled),
             entrainment=entrainment(grid, scaled),
         )
+
+
+def rigid_motions(grid: Grid, groups: Groups) -> tuple[Array, Array]:
+    """Return ``modes`` and ``moments`` of `Equations`.
+
+    Parameters
+    ----------
+    grid, groups : Grid, Groups
+        On one half of a contact that is symmetric in y nothing tilts.
+    """
+    approach, roller = np.ones((1, grid.shape[0])), groups.roller
+    if roller is None or roller.moment is None or grid.mirror:
+        return approach, np.zeros(0)
+    return np.append(approach, grid.centres[None], axis=0), np.array([roller.scaled_moment])
 
 
 def boundary_film(scaled: ScaledProblem) -> float | None:
@@ -167,7 +190,7 @@ def _layer(scaled: ScaledProblem, oil: EnteringOil | None, grid: Grid) -> Array 
 
 @dataclass(slots=True)
 class Sources:
-    """Right-hand sides: f of the Reynolds equation, g of the film equation, w of the load balance.
+    """Right-hand sides: f of the Reynolds, g of the film equation, w and m of the balances.
 
     ``history`` is the contribution of previous films to wedge and squeeze in a time step; f is
     less by it. ``drift`` is the divergence of what sliding carries beside the mean flow; f is
@@ -177,5 +200,6 @@ class Sources:
     reynolds: Array
     film: Array
     load: float
+    moments: Array
     history: Array | None = None
     drift: Array | None = None

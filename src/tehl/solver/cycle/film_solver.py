@@ -49,7 +49,7 @@ class Solved:
 
     grid: Grid
     traces: tuple[GridTrace, ...]
-    state: tuple[Array, float, Array]
+    state: tuple[Array, Array, Array]
     heat: tuple[FilmState, Factors] | None
 
 

@@ -154,7 +154,7 @@ class Hierarchy:
         """Interpolate the finest valid state of a coarser grid to the finest grid."""
         start = -1
         for number, level in enumerate(self.levels):
-            if 0.0 < level.film.p.max() < RUNAWAY and np.isfinite(level.rigid_approach):
+            if 0.0 < level.film.p.max() < RUNAWAY and np.isfinite(level.rigid).all():
                 start = number
         if start < 0:
             start = 0

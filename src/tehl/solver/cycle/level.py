@@ -1,8 +1,9 @@
 """One grid of the hierarchy: its unknowns, its right-hand sides, and its relaxation.
 
-The unknowns are the pressure P and the rigid approach H00; the film H follows from them. On the
-finest grid the right-hand sides f, g, w of `tehl.solver.cycle.equations` are those of the problem,
-on a coarser one those of `tehl.solver.cycle.transfers`.
+The unknowns are the pressure P and the rigid motions: the approach H00, and the tilt of a roller
+that follows from the moment of its load. The film H follows from them. On the finest grid the
+right-hand sides f, g, w of `tehl.solver.cycle.equations` are those of the problem, on a coarser one
+those of `tehl.solver.cycle.transfers`.
 """
 
 import numpy as np
@@ -40,10 +41,10 @@ class Level:
         self.film = self.film._replace(speed=speed, drift=drift, south=south, north=north)
         # of the mean planes: the film itself where no solids carry load
         self.separation = np.zeros(shape) if self.film.asperity.size else h
-        self.rigid_approach = 0.0
-        self.sources = Sources(f, g, equations.target)
+        self.rigid = np.zeros(len(equations.modes))
+        self.sources = Sources(f, g, equations.target, equations.moments)
         self.residual = np.zeros(shape)
-        self.restricted = (np.zeros(shape), 0.0)
+        self.restricted = (np.zeros(shape), self.rigid)
         self.total = np.zeros(shape)  # pressure of oil and asperities
         self.heights: Array | None = None
         # of the correction of the next finer grid: factor, and limit of its relative change of P
@@ -85,22 +86,22 @@ class Level:
     # state
 
     def set_state(
-        self, pressure: Array, rigid_approach: float, asperity: Array | float = 0.0
+        self, pressure: Array, rigid: Array | float, asperity: Array | float = 0.0
     ) -> None:
-        """Set the pressures of oil and asperities, and the rigid approach; the film is stale.
+        """Set the pressures of oil and asperities, and the rigid motions; the film is stale.
 
         Parameters
         ----------
         pressure : array of ``grid.shape``
             Of the oil; it is cavitated where this is zero.
-        rigid_approach : float
-            H00 [-].
+        rigid : (motions,) array or float
+            Film by the rigid motions at Y = 1 [-]; the approach H00 alone has no other ones.
         asperity : array of ``grid.shape``
             Of the asperities: where oil and they share a pressure, its parts follow with the film.
         """
         self.film.p[:] = pressure
         self.film.asperity[:] = asperity
-        self.rigid_approach = rigid_approach
+        self.rigid = np.append(rigid, np.zeros(self.rigid.size - np.size(rigid)))
         self.is_stale = True
 
     def set_pressure(self, pressure: Array) -> None:
@@ -110,18 +111,28 @@ class Level:
         """
         solids = self.film.asperity
         if not solids.size:
-            self.set_state(pressure, self.rigid_approach)
+            self.set_state(pressure, self.rigid)
         else:
             oil = np.where(self.film.p == 0.0, 0.0, pressure - solids)
-            self.set_state(oil, self.rigid_approach, pressure - oil)
+            self.set_state(oil, self.rigid, pressure - oil)
 
-    def state(self) -> tuple[Array, float, Array]:
+    def state(self) -> tuple[Array, Array, Array]:
         """Return a copy of what `set_state` sets."""
-        return self.film.p.copy(), self.rigid_approach, self.film.asperity.copy()
+        return self.film.p.copy(), self.rigid.copy(), self.film.asperity.copy()
 
-    def move(self, change: float) -> None:
-        """Change the rigid approach."""
-        self.rigid_approach += change
+    @property
+    def rigid_approach(self) -> float:
+        """H00 [-]."""
+        return float(self.rigid[0])
+
+    @property
+    def rigid_film(self) -> Array:
+        """Film by the rigid motions, (ny, 1) [-]."""
+        return (self.rigid @ self.equations.modes)[:, None]
+
+    def move(self, change: Array | float) -> None:
+        """Change the rigid motions, or the approach alone."""
+        self.rigid[: np.size(change)] += change
         self.is_stale = True
 
     @property
@@ -138,7 +149,7 @@ class Level:
         # the deflection is the largest part of the cost: once per change of the pressure
         self.equations.deformation.deflect(self.pressure, h)
         np.add(h, self.sources.film, out=h)
-        np.add(h, self.share.raised(self.rigid_approach), out=h)
+        np.add(h, self.share.raised(self.rigid_film), out=h)
         if self.far_field is not None:
             self.far_field.set_edges(self.film.p, h)
         self.share.follow(self, self.share.reach)
@@ -228,6 +239,12 @@ class Level:
         missing = self.sources.load - self.outside - inside
         return missing + self.share.answered(self)
 
+    def missing(self) -> Array:
+        """Return what is missing of the load and of its stated moments, (motions,) [-]."""
+        load, pressure = self.equations.load, self.pressure
+        carried = [load.integral(mode[:, None] * pressure) for mode in self.equations.modes[1:]]
+        return np.append(self.missing_load(), self.sources.moments - np.array(carried))
+
     @property
     def outside(self) -> float:
         """Load beyond the edges of the finest level, part of w [-]."""
@@ -235,5 +252,6 @@ class Level:
         return 0.0 if far is None else far.load(self.separation, self.equations.gap)
 
     def load_error(self) -> float:
-        """Return the relative error of the load balance."""
-        return -self.missing_load() / self.sources.load
+        """Return the error of the load balance, or that of a moment if it is larger, over w."""
+        missing = self.missing()
+        return -float(missing[np.abs(missing).argmax()]) / self.sources.load

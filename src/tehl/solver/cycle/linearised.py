@@ -11,24 +11,25 @@ from tehl.solver.cycle.level import Level
 PRESSURE_STEP = 1e-6
 """Step of the derivative of the conductance by pressure; its error is of this relative size."""
 APPROACH_WEIGHT = 10.0
-"""Weight of the rigid approach among the pressures in the vector of unknowns."""
+"""Weight of rigid motions among the pressures in the vector of unknowns."""
 
 
 def unknowns(level: Level) -> Array:
-    """Return pressure and weighted rigid approach of a level as one vector, (n + 1,)."""
-    return np.append(level.pressure.ravel(), APPROACH_WEIGHT * level.rigid_approach)
+    """Return pressure and weighted rigid motions of a level as one vector, (n + motions,)."""
+    return np.append(level.pressure.ravel(), APPROACH_WEIGHT * level.rigid)
 
 
 def set_unknowns(level: Level, vector: Array) -> None:
-    """Set pressure and rigid approach from a vector; negative pressures are clipped.
+    """Set pressure and rigid motions from a vector; negative pressures are clipped.
 
     Parameters
     ----------
-    level, vector : Level, (n + 1,) array
+    level, vector : Level, (n + motions,) array
         As `unknowns` takes and returns them.
     """
-    level.set_pressure(np.maximum(vector[:-1].reshape(level.grid.shape), 0.0))
-    level.rigid_approach = float(vector[-1]) / APPROACH_WEIGHT
+    nodes = level.film.p.size
+    level.set_pressure(np.maximum(vector[:nodes].reshape(level.grid.shape), 0.0))
+    level.rigid = vector[nodes:] / APPROACH_WEIGHT
 
 
 def conductance_slopes(level: Level) -> tuple[Array, Array]:
@@ -44,7 +45,7 @@ def conductance_slopes(level: Level) -> tuple[Array, Array]:
 
 def linearised(level: Level) -> Coarse:
     """Return film and conductance of a level with the derivatives of the conductance."""
-    film, factors, answer = level.film, level.factors, level.share.response
+    film, factors = level.film, level.factors
     by_pressure, by_film = conductance_slopes(level)
     ones = np.ones_like(film.p)
     stretch_x, stretch_y = (
@@ -65,7 +66,6 @@ def linearised(level: Level) -> Coarse:
         second=film.second,
         stiffness=film.stiffness,
         asperity=film.asperity,
-        lift=ones if answer is None else answer.lift,
         speed=film.speed,
         drift=film.drift,
         south=np.repeat(film.south, film.p.shape[1]),

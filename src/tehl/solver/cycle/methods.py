@@ -139,7 +139,7 @@ class Cycles:
         combined = self.anderson.combine(self.before, unknowns(fine))
         if not fine.share.combines:
             # a combination must not wet the nodes that the last cycle cavitated
-            combined[:-1][fine.film.p.ravel() <= 0.0] = 0.0
+            combined[: fine.film.p.size][fine.film.p.ravel() <= 0.0] = 0.0
         set_unknowns(fine, combined)
 
     def raise_heights(self, iterate: Iterate) -> None:

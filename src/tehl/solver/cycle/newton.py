@@ -6,7 +6,8 @@ relaxation that freezes it diverges. Newton's method linearises all of it
 
     L_P v + L_H (K v + c) = f - L(P),   sum(v) dx dy = w - sum(P) dx dy,
 
-for changes v of the pressures and c of the rigid approach. The free (inactive) nodes are those that
+for changes v of the pressures and c of the rigid approach, or c + t Y with its moment balance where
+the tilt of a roller follows from it. The free (inactive) nodes are those that
 are wet or whose residual would wet them (Hintermüller, Ito and Kunisch 2002). The Krylov method
 applies the full elastic deflection K. Its preconditioner is a correction on a coarse grid with
 dense K, then a sparse factorisation of L_P + L_H K_00 with the deflection K_00 of a node by itself;
@@ -68,7 +69,7 @@ def one_thread() -> AbstractContextManager[object]:
 
 
 class Newton:
-    """Newton's method for pressure and rigid approach of a level, with the load balance.
+    """Newton's method for pressure and rigid motions of a level, with their balances.
 
     It changes the unknowns of ``level`` in place. ``coarse`` is the grid of the coarse correction,
     of some hundred nodes.
@@ -86,11 +87,8 @@ class Newton:
         self.same = np.asarray(self.to_fine.argmax(axis=0)).ravel()  # fine node at each coarse one
         coarse_influence = influence_of(coarse, level.equations.groups)
         self.deflection = matrix_of(coarse, coarse_influence)
-        weights = np.full(
-            level.grid.shape, level.equations.load.area * (2.0 if level.grid.mirror else 1.0)
-        )
-        weights[0] = level.equations.load.area  # the symmetry line counts once
-        self.load_weights = weights.ravel()
+        self.load_weights = np.repeat(level.grid.dx * level.grid.widths, level.grid.nx)
+        self.modes = np.repeat(level.equations.modes, level.grid.nx, axis=1)
         self.preconditioner: Preconditioner | None = None
 
     def step(self) -> float:
@@ -125,7 +123,8 @@ class Newton:
         """Halve the step along ``change`` until the residual decreases; return the part taken."""
         level, start = self.level, unknowns(self.level)
         residual = level.evaluate_residual()
-        (step, share), part = limited(change), 1.0 if np.isfinite(change).all() else 0.0
+        step, share = limited(change, level.rigid.size)
+        part = 1.0 if np.isfinite(change).all() else 0.0
         while part > SHORTEST_LINE_STEP:
             set_unknowns(level, start + part * step)
             level.update()
@@ -166,17 +165,19 @@ class System:
         )
         self.by_pressure = csr_matrix(rows(self.scale) @ by_pressure @ self.kept)
         self.by_film = csr_matrix(rows(self.scale) @ by_film)
-        self.rest = np.append(self.scale * rest.ravel(), level.missing_load())
+        self.rest = np.append(self.scale * rest.ravel(), level.missing())
 
     def product(self, change: Array) -> Array:
-        """Return the Jacobian times a change of pressures and approach, (n + 1,)."""
+        """Return the Jacobian times a change of pressures and motions, (n + motions,)."""
         self.products += 1
-        pressure = np.where(self.free, change[:-1], 0.0)
+        newton, nodes = self.newton, self.free.size
+        pressure = np.where(self.free, change[:nodes], 0.0)
         film = np.empty(self.shape)
-        self.newton.level.equations.deformation.deflect(pressure.reshape(self.shape), film)
-        flow = self.by_pressure @ pressure + self.by_film @ (film.ravel() + change[-1])
-        kept = np.where(self.free, flow, change[:-1])  # identity at the other nodes
-        return np.append(kept, self.newton.load_weights @ pressure)
+        newton.level.equations.deformation.deflect(pressure.reshape(self.shape), film)
+        moved = film.ravel() + change[nodes:] @ newton.modes
+        flow = self.by_pressure @ pressure + self.by_film @ moved
+        kept = np.where(self.free, flow, change[:nodes])  # identity at the other nodes
+        return np.append(kept, newton.modes @ (newton.load_weights * pressure))
 
     def solve(self, preconditioner: "Preconditioner", accuracy: float) -> Array:
         """Return the Newton step of `unknowns`, by GCROT.
@@ -197,7 +198,7 @@ class System:
             m=VECTORS,
             M=LinearOperator((size, size), matvec=partial(preconditioner.solve, self), dtype=float),
         )
-        change[-1] *= APPROACH_WEIGHT
+        change[self.free.size :] *= APPROACH_WEIGHT
         return np.asarray(change)
 
 
@@ -226,17 +227,18 @@ class Preconditioner:
             self.coarse = lu_factor(self.coarse_matrix(system))
 
     def coarse_matrix(self, system: System) -> Array:
-        """Return the matrix of the coarse grid: Reynolds equations, then the load balance."""
+        """Return the matrix of the coarse grid: Reynolds equations, then the balances."""
         newton = system.newton
         by_film = csr_matrix(self.to_coarse @ system.by_film)
-        size = newton.deflection.shape[0]
-        matrix = np.zeros((size + 1, size + 1))
-        matrix[:-1, :-1] = (self.to_coarse @ system.by_pressure @ self.to_fine).toarray()
-        matrix[:-1, :-1] += ((by_film @ newton.to_fine) @ newton.deflection) * self.moving
-        matrix[:-1, -1] = by_film @ np.ones(system.free.size)
-        matrix[-1, :-1] = newton.load_weights @ self.to_fine
+        size, motions = newton.deflection.shape[0], len(newton.modes)
+        matrix = np.zeros((size + motions, size + motions))
+        inner = matrix[:size, :size]
+        inner[:] = (self.to_coarse @ system.by_pressure @ self.to_fine).toarray()
+        inner += ((by_film @ newton.to_fine) @ newton.deflection) * self.moving
+        matrix[:size, size:] = by_film @ newton.modes.T
+        matrix[size:, :size] = (newton.load_weights * newton.modes) @ self.to_fine
         # coarse nodes without wet fine nodes: identity rows
-        empty = np.nonzero(~matrix[:-1, :-1].any(axis=1))[0]
+        empty = np.nonzero(~inner.any(axis=1))[0]
         matrix[empty, empty] = 1.0
         return matrix
 
@@ -248,25 +250,33 @@ class Preconditioner:
         system : System
             Its product gives the residual after the coarse-grid correction.
         rest : Array
-            Right-hand side, (n + 1,): the nodes, then the load.
+            Right-hand side, (n + motions,): the nodes, then load and moment.
         """
-        coarse = lu_solve(self.coarse, np.append(self.to_coarse @ rest[:-1], rest[-1]))
-        change = np.append(self.to_fine @ coarse[:-1], coarse[-1])
+        nodes, size = system.free.size, self.to_fine.shape[1]
+        coarse = lu_solve(self.coarse, np.append(self.to_coarse @ rest[:nodes], rest[nodes:]))
+        change = np.append(self.to_fine @ coarse[:size], coarse[size:])
         left = rest - system.product(change)
-        change[:-1] += self.close.solve(left[:-1].astype(np.float32))
+        change[:nodes] += self.close.solve(left[:nodes].astype(np.float32))
         return change
 
 
-def limited(change: Array) -> tuple[Array, float]:
+def limited(change: Array, motions: int = 1) -> tuple[Array, float]:
     """Return a limited step, and its part of ``change``.
 
     No pressure changes by more than `LARGEST_NEWTON_CHANGE`. The few `OUTLIERS` are clipped and do
     not shorten the step.
+
+    Parameters
+    ----------
+    change : (n + motions,) array
+        Of `unknowns`.
+    motions : int
+        Rigid motions among them, which are not limited.
     """
-    sizes = np.abs(change[:-1])
+    sizes = np.abs(change[:-motions])
     last = sizes.size - 1 - int(OUTLIERS * sizes.size)
     most = np.partition(sizes, last)[last]
     share = LARGEST_NEWTON_CHANGE / max(float(most), LARGEST_NEWTON_CHANGE)
     step = share * change
-    step[:-1] = np.clip(step[:-1], -LARGEST_NEWTON_CHANGE, LARGEST_NEWTON_CHANGE)
+    step[:-motions] = np.clip(step[:-motions], -LARGEST_NEWTON_CHANGE, LARGEST_NEWTON_CHANGE)
     return step, share

@@ -18,7 +18,7 @@ Full multigrid starts near the solution, which few neighbours of a study beat.""
 def pose_problem(level: Level) -> None:
     """Set the right-hand sides of a steady problem: f = 0, g = gap - heights, w the load."""
     level.sources.reynolds[:] = 0.0
-    level.sources.load = level.equations.target
+    level.sources.load, level.sources.moments = level.equations.target, level.equations.moments
     level.is_finest = True
     level.share.stays = False
     level.apply_heights(1.0)
@@ -40,7 +40,7 @@ def pose_step(level: Level, history: Array, heights: Array, equations: Equations
         With the load, the gap and the pressure on the edges at the new time.
     """
     level.sources.history, level.heights, level.equations = history, heights, equations
-    level.sources.load = equations.target
+    level.sources.load, level.sources.moments = equations.target, equations.moments
     level.is_finest = True
     level.apply_heights(1.0)
     level.smoother.frozen[:] = 0
@@ -78,7 +78,7 @@ def from_coarser(coarse: Level, fine: Level) -> None:
         rise = refine_signed(dry, fine.grid)
         oil = np.where(oil > 0.0, np.maximum(dry_pressure(fine.grid, groups) + rise, 0.0), 0.0)
     asperity = refine(asperity, fine.grid) if asperity.size else asperity
-    fine.set_state(oil, coarse.rigid_approach, asperity)
+    fine.set_state(oil, coarse.rigid, asperity)
 
 
 def from_guess(level: Level, guess: Solution | None) -> None:

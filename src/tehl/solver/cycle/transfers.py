@@ -34,7 +34,7 @@ def restrict(fine: Level, coarse: Level) -> None:
 
 
 def restrict_solution(fine: Level, coarse: Level) -> None:
-    """Restrict P by full weighting, beside cavities and on edges by injection, and H00.
+    """Restrict P by full weighting, beside cavities and on edges by injection; rigid motions.
 
     Coarse nodes of low pressure beside a cavity are frozen: the coarse grid would cavitate them in
     every cycle (Venner and Lubrecht 2000, chapter 6, restrict there by injection).
@@ -44,15 +44,15 @@ def restrict_solution(fine: Level, coarse: Level) -> None:
     transfer.freeze(fine.film.p, fine.smoother.frozen, coarse.film.p, mirror, limit, frozen)
     coarse.is_finest = False
     fine.cavity.inject(fine, coarse)
-    # I P and H00: `correct` interpolates the change since
+    # I P and rigid motions: `correct` interpolates the change since
     before, _ = coarse.restricted
     before[:] = coarse.film.p
-    coarse.restricted = (before, fine.rigid_approach)
-    coarse.rigid_approach = fine.rigid_approach
+    coarse.restricted = (before, fine.rigid.copy())
+    coarse.rigid = fine.rigid.copy()
 
 
 def restrict_film(fine: Level, coarse: Level) -> None:
-    """Pose the film equation:  g_c = I H - K_c P_c - H00,  I injection.
+    """Pose the film equation:  g_c = I H - K_c P_c - H00 - T Y_c,  I injection.
 
     The fine film satisfies its equation exactly, so there is no residual to add. Density and
     conductance of the coarse grid follow from the injected film.
@@ -62,7 +62,7 @@ def restrict_film(fine: Level, coarse: Level) -> None:
     coarse.share.receive(coarse)
     coarse.equations.deformation.deflect(coarse.pressure, g)
     np.subtract(coarse.separation, g, out=g)
-    g -= coarse.rigid_approach
+    g -= coarse.rigid_film
 
 
 def restrict_reynolds(fine: Level, coarse: Level) -> None:
@@ -77,13 +77,15 @@ def restrict_reynolds(fine: Level, coarse: Level) -> None:
 
 
 def restrict_load(fine: Level, coarse: Level) -> None:
-    """Pose the load balance:  w_c = sum(P_c) dx_c dy_c + (w - sum(P) dx dy)."""
-    carried = coarse.equations.load.integral(coarse.pressure)
-    coarse.sources.load = fine.missing_load() + carried
+    """Pose the balances:  w_c = sum(P_c) dx_c dy_c + (w - sum(P) dx dy),  moments alike."""
+    load, pressure = coarse.equations.load, coarse.pressure
+    carried = [load.integral(mode[:, None] * pressure) for mode in coarse.equations.modes]
+    coarse.sources.load, *moments = fine.missing() + np.array(carried)
+    coarse.sources.moments = np.array(moments)
 
 
 def correct(fine: Level, coarse: Level) -> None:
-    """Add the interpolated change  u_c - I u  of the coarse grid, u the pressure and H00.
+    """Add the interpolated change  u_c - I u  of the coarse grid, u the pressure and motions.
 
     By bilinear interpolation, never across the cavitation front: two grids would move the front
     back and forth.
@@ -93,12 +95,11 @@ def correct(fine: Level, coarse: Level) -> None:
     fine, coarse : Level
         The unknowns of the finer one change in place.
     """
-    (before, approach), (part, limit) = coarse.restricted, coarse.correction
+    (before, rigid), (part, limit) = coarse.restricted, coarse.correction
     mirror, now = fine.stencil.mirror, coarse.share.changed(coarse)
     transfer.correct(fine.film.p, now, before, mirror, (part, limit, fine.share.lowest))
     fine.cavity.correct(fine, coarse, before, (part, limit))
-    fine.rigid_approach += part * (coarse.rigid_approach - approach)
-    fine.is_stale = True
+    fine.move(part * (coarse.rigid - rigid))
 
 
 TRANSFERS = Transfers(restrict, correct)

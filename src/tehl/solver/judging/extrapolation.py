@@ -10,6 +10,7 @@ from tehl.operators.energy import FilmState
 from tehl.result.fields import Fields, HeatBalance
 from tehl.result.solution import Extras
 from tehl.solver.cycle.level import Level
+from tehl.solver.judging.measures import tilt_of
 from tehl.solver.judging.outputs import (
     film_asperities,
     film_contact,
@@ -65,6 +66,7 @@ def outputs_of(
             asperities=film_asperities(level, scaled),
             contact=film_contact(level, scaled),
             oil=film_oil(level, scaled),
+            tilt=tilt_of(level),
         ),
     )
 

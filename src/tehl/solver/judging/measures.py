@@ -97,7 +97,8 @@ def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
 def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
     """Return the rolling integral of a line or roller [-], and its error by the oil upstream [-].
 
-    Also ``tilting``, the moment of the load of a roller about x [-], where it is not symmetric.
+    Also, where it is not symmetric, the ``tilt`` of a roller that follows from the moment of its
+    load [rad], or else ``tilting``, that moment about x [-].
 
     Parameters
     ----------
@@ -115,9 +116,21 @@ def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
     error = TAIL_ERROR if level.far_field is not None else TAIL_OF_ZERO_EDGE
     tail = float(upstream.rolling @ grid.widths)
     known = {"rolling": found, "rolling_tail": error * abs(tail / found) if found else 0.0}
-    if scaled.problem.has_tilting_moment:
-        known["tilting"] = level.equations.load.integral(grid.y[:, None] * level.pressure)
-    return known
+    if not scaled.problem.has_tilting_moment:
+        return known
+    tilt = tilt_of(level)
+    if tilt is not None:
+        return known | {"tilt": tilt}
+    moment = level.equations.load.integral(grid.centres[:, None] * level.pressure)
+    return known | {"tilting": moment}
+
+
+def tilt_of(level: Level) -> float | None:
+    """Return the tilt of a roller [rad]; None where it does not follow from its moment."""
+    roller = level.equations.groups.roller
+    if roller is None or roller.moment is None:
+        return None
+    return roller.tilt + roller.tilt_unit * float(level.rigid[1:].sum())
 
 
 def film_numbers(level: Level) -> dict[str, float]:

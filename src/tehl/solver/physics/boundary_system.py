@@ -144,8 +144,8 @@ class TouchingSystem:
         return np.asarray(change)
 
     def stepped(
-        self, before: tuple[Array, float, Array], change: Array, part: float, residual: float
-    ) -> tuple[Array, float, Array]:
+        self, before: tuple[Array, Array, Array], change: Array, part: float, residual: float
+    ) -> tuple[Array, Array, Array]:
         """Return oil pressure, rigid approach and contact pressure after part of a change.
 
         Where surfaces touch the sum of both pressures follows the change and the oil pressure has
@@ -154,7 +154,7 @@ class TouchingSystem:
 
         Parameters
         ----------
-        before : (Array, float, Array)
+        before : (Array, Array, Array)
             Oil pressure (ny, nx), rigid approach and contact pressure (ny, nx), in Hertz scales.
         change : Array
             Solution of the linear system.

@@ -312,7 +312,7 @@ def _coarse_changes(run: FilmSolver, omegas: Array, excess: Array | None) -> Cha
         return None
     fine = run.finest
     level = levels[-1]
-    level.set_state(injected(fine.film.p, level.film.p), fine.rigid_approach)
+    level.set_state(injected(fine.film.p, level.film.p), fine.rigid)
     pose_problem(level)
     if excess is not None:
         level.update()

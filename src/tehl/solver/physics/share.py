@@ -24,11 +24,14 @@ class Carried(Protocol):
 
     film: Film
     separation: Array
-    rigid_approach: float
     is_finest: bool
     sources: Sources
     factors: Factors | None
     smoother: Smoother
+
+    @property
+    def rigid_approach(self) -> float:
+        """H00."""
 
     def update(self) -> None:
         """Evaluate the film."""
@@ -36,11 +39,11 @@ class Carried(Protocol):
     def update_properties(self) -> None:
         """Evaluate conductance and density."""
 
-    def set_state(self, pressure: Array, rigid_approach: float, asperity: Array | float) -> None:
+    def set_state(self, pressure: Array, rigid: Array | float, asperity: Array | float) -> None:
         """Set the unknowns."""
 
-    def move(self, change: float) -> None:
-        """Change the rigid approach."""
+    def move(self, change: Array | float) -> None:
+        """Change the rigid motions, or the approach alone."""
 
     def load_error(self) -> float:
         """Return the relative error of the load."""
@@ -112,10 +115,10 @@ class OilAlone:
         """Evaluate the injected separation: this level corrects a finer one, which decides."""
         self.follow(level, -1.0)
 
-    def raised(self, approach: float) -> Array | float:
-        """Return what the rigid approach adds to the film [-]."""
+    def raised(self, film: Array) -> Array:
+        """Return what the rigid motions, of which that is the ``film``, add to it [-]."""
         found = self.response
-        return approach if found is None else found.raised(approach)
+        return film if found is None else found.raised(film)
 
     def answered(self, level: Carried) -> float:
         """Return by how much more load is missing as the contact yields to oil and approach [-]."""
@@ -182,9 +185,9 @@ class Response:
     pressure: Array
     """Oil pressure of that state, ``grid.shape`` [-]."""
 
-    def raised(self, approach: float) -> Array:
-        """Return what a rigid approach adds to the film, ``grid.shape`` [-]."""
-        return self.approach + self.lift * (approach - self.approach)
+    def raised(self, film: Array) -> Array:
+        """Return what a rigid approach, of which that is the ``film``, adds to it, (ny, nx) [-]."""
+        return self.approach + self.lift * (film - self.approach)
 
     def injected(self, approach: float, pressure: Array) -> "Response":
         """Return the response on the next coarser grid, from its present state."""
