@@ -10,13 +10,16 @@ from tehl.api.problem import case_from_tables
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.supply import Supply
+from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.solver import steady
 from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import STARVED_DAMPING, UNCOMBINED, Strategy, ladder
 from tehl.solver.cycle.level import Level
-from tehl.solver.cycle.relaxation import BROAD, FAST
+from tehl.solver.cycle.relaxation import BROAD, FAST, THIN
 from tehl.solver.judging.convergence import DivergedError
+from tehl.solver.judging.measures import nodal_film
 from tehl.solver.monitor import SILENT
 from tests.reference import moes_contact
 from tests.solver.test_line import line
@@ -198,3 +201,16 @@ def test_a_line_stays_one_row_with_a_wedge_of_another_order(monkeypatch):
     monkeypatch.setattr(steady, "ladder", lambda *_, **__: second)
     found = steady.solve(line(20.0, 10.0), Options(points=129, extrapolate=True))
     assert found.scaled.film.shape == (1, 129)
+
+
+def test_a_film_too_thin_for_coarse_grids_converges_by_small_steps_of_relaxation() -> None:
+    problem = moes_contact(120_000.0, 3.0, radius_ratio=16.0)
+    scaled, options = ScaledProblem.of(problem), OPTIONS.on_points(257, 129)
+    thinnest = ladder(scaled, options, rough=False)[0]
+    assert thinnest.relaxation is THIN
+    hierarchy = Hierarchy.on(finest_grid(scaled, options), scaled, options, THIN)
+    run = FilmSolver(hierarchy, thinnest)
+    assert run.solve(force=True)
+    central, minimum = nodal_film(run.finest)
+    assert 0.6 * central < minimum < central
+    assert central == pytest.approx(hierarchy.expected_film, rel=0.3)

@@ -81,9 +81,10 @@ class Attempt:
         return self.status.converged or self.status.cause in GRID_CAUSES or touching
 
     @property
-    def rank(self) -> tuple[bool, bool, bool]:
-        """Sorting key, best first: final, converged, finite."""
-        return not self.is_final, not self.reached, self.status.kind == "diverged"
+    def rank(self) -> tuple[bool, bool, bool, float]:
+        """Sorting key, best first: final, converged, finite, least error of a grid too coarse."""
+        error = self.run.film_error() if self.status.cause in GRID_CAUSES else 0.0
+        return not self.is_final, not self.reached, self.status.kind == "diverged", error
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@
 coarser one has no acceptable solution, and whether a finer one follows.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -200,6 +201,11 @@ class FilmSolver(GridIteration):
             if errors is not None and errors.film() < TOO_COARSE:
                 return level.grid.points, errors.film()
         return None
+
+    def film_error(self) -> float:
+        """Return the relative error bar of the film on the last grid; infinite if it is unknown."""
+        errors = self.errors()
+        return math.inf if errors is None else errors.film()
 
     def minimum_part(self) -> float:
         """Return the minimum film over the film to which its error is relative [-].

@@ -24,6 +24,7 @@ from tehl.solver.cycle.relaxation import (
     ROUGH,
     STEEP,
     STEEPER,
+    THIN,
     Relaxation,
 )
 
@@ -147,6 +148,8 @@ last resort, steep spikes (L = 29) diverge."""
 STEEP_SPEED = 13.0
 """Moes speed L above which `UNCOMBINED` comes before the combined cycles. Nine contacts of machines
 whose first strategy fails take 0.75 of the CPU time by this and by going on from solved grids."""
+THINNEST = Strategy(relaxation=THIN, damping=0.5, patience=3, memory=COMBINED_CYCLES)
+"""For films so thin that on coarse grids any other strategy makes them negative."""
 STARVED_DAMPING = 0.3
 """Damping of the second strategy where the oil is scarce: with 0.5, which saves a fifth of the time
 of 30 flooded contacts, the edge of the film of an inner ring (M = 2,500) does not rest."""
@@ -154,6 +157,9 @@ HEAVY_LOAD, HEAVY_RATIO = (7e3, 4e3), 600.0
 """Moes loads M, the smaller one where M over kappa and the root of L exceeds the ratio, from which
 the first strategy is left out: it converged in none of 28 such bearings, gears and rigs, but in 106
 of 150 others with M > 80."""
+THIN_LOAD, THIN_RATIO = 7e4, 3000.0
+"""Moes load M and that ratio from which `THINNEST` comes first: it converges for seven of eight
+flooded bearings with M = 85,000 to 257,000, and no other strategy for any of four of them."""
 STATED = {one.name: Strategy(relaxation=one) for one in (FAST, BROAD, ROBUST, GAUSS_SEIDEL)}
 
 
@@ -184,26 +190,33 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
     rungs = _rungs(problem)
     if options.order < 3 or options.wedge_order is not None:
         return rungs
+    thin = (THINNEST,) if _exceeds(scaled, THIN_LOAD, THIN_RATIO) else ()
     if problem.is_coupled and _is_heavy(scaled):
         rungs = rungs[1:]
     # behind steep pressure spikes some contacts converge with second order only
     second = (replace(one, wedge_order=2) for one in rungs)
     steep = (UNCOMBINED,) if problem.is_coupled else ()
     if problem.asperities is not None:
-        return (*rungs[: THIRD_ORDER_STRATEGIES + 1], *steep, *second)
+        return (*thin, *rungs[: THIRD_ORDER_STRATEGIES + 1], *steep, *second)
     third = tuple(
         replace(one, memory=COMBINED_CYCLES) if one.damping < 1.0 else one
         for one in rungs[:THIRD_ORDER_STRATEGIES]
     )
     first = 1 if scaled.groups.L > STEEP_SPEED else THIRD_ORDER_STRATEGIES
-    return (*third[:first], *steep, *third[first:], *second)
+    return (*thin, *third[:first], *steep, *third[first:], *second)
 
 
 def _is_heavy(scaled: ScaledProblem) -> bool:
     """Return whether the film is too thin for the first strategy, which coarse grids try first."""
-    groups, (heavy, least) = scaled.groups, HEAVY_LOAD
-    ratio = groups.M / (max(groups.ellipticity, 1.0) * math.sqrt(max(groups.L, 0.1)))
-    return groups.M > heavy or (groups.M > least and ratio > HEAVY_RATIO)
+    heavy, least = HEAVY_LOAD
+    return scaled.groups.M > heavy or _exceeds(scaled, least, HEAVY_RATIO)
+
+
+def _exceeds(scaled: ScaledProblem, load: float, ratio: float) -> bool:
+    """Return whether M exceeds ``load``, and M over kappa and the root of L ``ratio``."""
+    groups = scaled.groups
+    slender = max(groups.ellipticity, 1.0) * math.sqrt(max(groups.L, 0.1))
+    return groups.M > max(load, ratio * slender)
 
 
 def _rungs(problem: ContactProblem) -> tuple[Strategy, ...]:
