@@ -142,6 +142,14 @@ def test_cycles_on_lines_that_crowd_leave_a_third_of_the_residual(profile, point
     assert (residuals[5] / residuals[1]) ** 0.25 < 0.35
 
 
+def test_a_straight_roller_has_the_film_of_a_line_in_its_middle():
+    found = tehl.solve(roller(9.3, moes_speed=14.4, length="8 mm"))
+    assert {one.smoother for one in found.history} == {"fast"}  # on lines that crowd none converges
+    line = tehl.solve(contact(type="line", radius="10 mm", moes_load=9.3, moes_speed=14.4))
+    assert found.film_scaled.central == pytest.approx(line.film_scaled.central, rel=0.02)
+    assert not found.errors.minimum_has_limit
+
+
 def test_single_nodes_at_the_ends_do_not_keep_cycles_from_a_finer_grid():
     tilted = roller(12.0, moes_speed=15.0, length="8 mm", profile=LOGARITHMIC, tilt=2e-4)
     found = tehl.solve(tilted, Options(points=161))

@@ -87,13 +87,14 @@ def _of_one_row(problem: ContactProblem, options: Options) -> Options:
 def crowds_at_ends(problem: ContactProblem) -> bool:
     """Return whether the lines of the grid crowd at the ends of a roller.
 
-    Heights, time steps, dynamics and paths of surfaces across lines need uniform ones: only a
-    flooded film, smooth on the mesh and steady, has crowded ones. It may thin by shear, share the
+    Heights, time steps, dynamics and paths of surfaces across lines need uniform ones, and the film
+    at the sharp ends of a straight roller has no limit to resolve: only a flooded film under a
+    profile, smooth on the mesh and steady, has crowded ones. It may thin by shear, share the
     load with asperities, and be heated by sliding along x.
     """
     others = (problem.supply, problem.cavitation, problem.dynamics)
-    has_ends = problem.contact.type == "roller" and not problem.shape.goes_on
-    if not has_ends or any(one is not None for one in others):
+    is_profiled = problem.contact.profile is not None
+    if not is_profiled or any(one is not None for one in others):
         return False
     return _is_smooth(problem) and (problem.thermal is None or problem.motion.is_plain)
 
