@@ -138,6 +138,23 @@ def test_minima_close_to_the_edge_of_the_contact_get_as_many_lines_as_columns(lo
     assert nx - 1 == columns * (ny - 1)
 
 
+def test_the_heat_of_the_inlet_upstream_of_a_domain_makes_part_of_the_bar_of_its_film():
+    """At 20 m/s (M = 2.7, L = 22) heat takes half of the film, 0.34 % upstream of the edge."""
+    problem = heated_contact(0.1, sources="auto", entrainment_speed=20.0)
+    scaled = ScaledProblem.of(problem)
+    near = recommended_domain(scaled.entering, 0.02, near=True)
+    width, films = (near.x[1] - near.x[0]) / 64, []
+    common = {"edges": "far_field", "accuracy": "tight", "tolerance": 1e-4, "wedge_order": 3}
+    for cells in (64, 128):
+        domain = Domain(x=(near.x[1] - cells * width, near.x[1]), y=near.y)
+        options = Options.model_validate({"points": (cells + 1, 65), "domain": domain} | common)
+        films.append(solve(problem, options))
+    here, there = (film.film_scaled.central for film in films)
+    entering = entry_error(scaled, near)
+    assert 0.4 * entering < here / there - 1.0 < entering
+    assert films[0].errors.domain >= entering
+
+
 def test_heavier_loads_need_more_points():
     contacts = [groups(moes_contact(m, 10.0)) for m in (20, 200, 2000)]
     points = [expected_points(one, recommended_domain(one), 0.02) for one in contacts]

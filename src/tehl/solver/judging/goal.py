@@ -83,11 +83,12 @@ def estimated_errors(
     at_sides = 0.0
     if _expected_bar(hierarchy, level) and not roughness.is_rough and is_thinnest_at_side(level):
         at_sides = side_bar(hierarchy.scaled, level.grid.domain, level.grid.ny)
+    supply = max(1.0 - meets, 0.0) * supply_error(hierarchy.scaled)
     return replace(
         found,
-        bars=bars,
+        bars={name: bar + supply for name, bar in bars.items()},
         discretisation_minimum=max(found.discretisation_minimum, at_sides),
-        supply=max(1.0 - meets, 0.0) * supply_error(hierarchy.scaled),
+        supply=supply,
         minimum_has_limit=not is_thinnest_at_end(level),
         pressure_has_limit=not at_end,
     )
@@ -101,6 +102,7 @@ def _by_grids(
     if len(traces) < 2 or not traces[-1].reports or traces[-1].diverged:
         return None
     edges, domain, newtonian = level.grid.domain, 0.0, not scaled.problem.is_coupled
+    sliding = math.hypot(scaled.moment.sliding, scaled.problem.motion.sliding_ratio[1])
     if level.equations.far_field is not None:
         domain = far_field_error(scaled.entering, edges) + entry_error(scaled, edges)
         domain += spin_error(scaled)
@@ -115,6 +117,7 @@ def _by_grids(
             order,
             domain,
             newtonian=newtonian,
+            sliding=sliding,
             least=expected,
             most=MOST_EXPECTED * expected if expected and is_limited else math.inf,
             extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == compared[-2:],
@@ -126,7 +129,9 @@ def _by_grids(
         points, amplitude = roughness.points, roughness.amplitude
         return single_grid_estimate(traces[-1], level.grid.dx, points, amplitude, domain)
     kind = scaled.problem.contact.type
-    return error_estimate(compared, order, domain, rough=True, newtonian=newtonian, kind=kind)
+    return error_estimate(
+        compared, order, domain, rough=True, newtonian=newtonian, sliding=sliding, kind=kind
+    )
 
 
 def comparable(traces: list[GridTrace]) -> list[GridTrace]:
