@@ -3,6 +3,7 @@
 import pytest
 
 from tehl.contact.options import Options
+from tehl.contact.supply import Supply
 from tehl.estimate.domain import domain_of, far_field_error
 from tehl.estimate.nodes import (
     EXPECTED_BAR_MARGIN,
@@ -10,6 +11,7 @@ from tehl.estimate.nodes import (
     FEWEST_LINES,
     LIMITED_RATIO,
     LONGEST_CELL,
+    is_thinnest_at_exit,
     planned,
 )
 from tehl.estimate.scaling import ScaledProblem
@@ -49,6 +51,16 @@ def test_a_film_that_is_thinnest_at_the_exit_needs_few_lines_and_one_at_the_side
     scaled = ScaledProblem.of(moes_contact(load, speed, radius_ratio=radius_ratio))
     ny, nx = planned(scaled, Options(error=0.01)).shape
     assert (ny - 1) == part * (nx - 1)
+
+
+@pytest.mark.parametrize(("radius_ratio", "is_quarter"), [(12.0, False), (20.0, True)])
+def test_a_film_short_of_oil_is_thinnest_at_the_exit_of_more_slender_contacts_alone(
+    radius_ratio: float, is_quarter: bool
+) -> None:
+    flooded = moes_contact(5000.0, 8.0, radius_ratio=radius_ratio)
+    starved = flooded.model_copy(update={"supply": Supply(ratio=0.5)})
+    assert is_thinnest_at_exit(ScaledProblem.of(flooded))
+    assert is_thinnest_at_exit(ScaledProblem.of(starved)) is is_quarter
 
 
 @pytest.mark.parametrize("ratio", [0.01, 0.1, 0.4])

@@ -2,6 +2,7 @@
 
 import math
 import tomllib
+from dataclasses import replace
 from itertools import pairwise
 from unittest.mock import Mock
 
@@ -18,6 +19,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.io.templates import template_text
 from tehl.result.bars import ErrorEstimate
+from tehl.solver.cycle.iteration import GridIteration
 from tehl.solver.judging.goal import (
     FLOODED_PART,
     MOST_OTHERS,
@@ -355,3 +357,16 @@ def test_a_flooded_film_to_which_a_supply_is_stated_has_the_goal_of_its_centre()
     assert not goal.is_met(errors(0.0065, 0.001))
     assert not goal.wants_lines(level, errors(0.005, 0.025))
     assert goal.spare(errors(0.001, 0.025)) == pytest.approx(MOST_SPARE * FLOODED_PART * 0.01)
+
+
+@pytest.mark.parametrize(
+    ("minimum", "oil", "awaits"),
+    [(0.003, 0.007, True), (0.003, 0.004, False), (0.012, 0.007, False)],
+)
+def test_cycles_go_on_where_the_oil_balance_alone_exceeds_the_error_to_reach(
+    minimum: float, oil: float, awaits: bool
+) -> None:
+    goal = Goal(ScaledProblem.of(moes_contact(400.0, 10.0)), Options(error=0.01))
+    found = replace(errors(0.001, minimum), supply=0.001 + oil)
+    run = Mock(goal=goal, balance=Mock(oil_error=oil), errors=lambda: found)
+    assert GridIteration.awaits_oil(run) is awaits

@@ -43,6 +43,10 @@ EXIT_RATIO, EXIT_LOAD, LEAST_QUARTER = 4.0, 0.56, 32
 the lines is enough: of 32 such contacts (M = 41 to 20,000, L up to `LIMITED_SPEED`) it changes the
 minimum by less than 0.3 %; of 12 others by up to 8 %, as the film is thinnest at the sides. Least
 intervals of that quarter."""
+EXIT_STARVED = 1.25
+"""Factor on that ratio where oil is scarce: just beyond it the minimum of an outer ring (M = 8,058,
+a_y/a_x = 5.4) errs by 5 % with a quarter; five contacts with 1.5 to 2.7 times the ratio need no
+more."""
 LINES_BAR, ENOUGH_LINES = 0.2, 1.5
 """Factor of `lines_bar`, within a factor of two for 20 contacts with M = 500 to 31,000; and that
 bar over the error to leave from which as many lines as columns are planned."""
@@ -278,6 +282,7 @@ def is_thinnest_at_exit(scaled: ScaledProblem) -> bool:
     """
     groups, problem = scaled.groups, scaled.problem
     least = max(EXIT_RATIO, EXIT_LOAD * groups.M**0.25)
+    least *= 1.0 if problem.supply is None else EXIT_STARVED
     is_slender = groups.ellipticity >= least and groups.L <= LIMITED_SPEED
     return is_slender and problem.is_even_in_y and problem.asperities is None
 

@@ -167,7 +167,16 @@ class GridIteration:
         done = self.balance.is_kept and must_stop(trace, coarser, self.options)
         if not done and self.strategy.gives_up and recedes(trace):
             return True
+        done = done and not self.awaits_oil()
         return done or stalled(trace, self.strategy.patience)
+
+    def awaits_oil(self) -> bool:
+        """Return whether the error to reach is exceeded by that of the oil balance alone."""
+        found, oil = self.errors(), self.balance.oil_error
+        if found is None or oil <= LARGEST_OIL_ERROR:
+            return False
+        without = replace(found, supply=found.supply - oil)
+        return self.goal.is_met(without) and not self.goal.is_met(found)
 
     def _negligible(self) -> float:
         return self.goal.negligible * self.finest.cavity.oscillates
