@@ -16,6 +16,7 @@ References
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal, get_args
 
 from tehl.estimate.formula import Asymptotes, FilmRatio, Formula, Regime
@@ -139,6 +140,7 @@ def _piezoviscous(limits: Asymptotes) -> float:
     return rigid * (1.0 + (rigid / elastic) ** 8) ** (-1 / 8)
 
 
+@lru_cache(maxsize=64)
 def expected_central_film(groups: Groups) -> float:
     """Return the central film H by the formula that covers all regimes [-].
 

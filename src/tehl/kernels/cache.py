@@ -83,7 +83,12 @@ def remove_old() -> None:
 
 def _mark(part: str) -> Path:
     place = folder() or SOURCE / "nowhere"
-    return place / f"{part}-{sys.implementation.cache_tag}-{version('numba')}"
+    return place / f"{part}-{sys.implementation.cache_tag}-{_compiler()}"
+
+
+@cache  # reading the metadata takes a millisecond
+def _compiler() -> str:
+    return version("numba")
 
 
 @cache

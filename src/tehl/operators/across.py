@@ -1,11 +1,14 @@
 """Nodes across the film, and the matrices that differentiate and integrate on them."""
 
+from functools import cache
+
 import numpy as np
 
 from tehl.base.typing import Array
 from tehl.kernels.energy.records import Across
 
 
+@cache
 def chebyshev(nodes: int) -> Across:
     """Return collocation at Chebyshev-Gauss-Lobatto nodes: exact for polynomials.
 
@@ -28,6 +31,7 @@ def chebyshev(nodes: int) -> Across:
     )
 
 
+@cache
 def uniform(nodes: int) -> Across:
     """Return central differences and the trapezoidal rule on uniform layers: second order.
 

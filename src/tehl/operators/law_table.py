@@ -138,21 +138,27 @@ def _terms(
     d = DIFFERENCE * step
     power = np.vander(nodes, count, increasing=True)
 
-    def fit(row: Array) -> Array:
-        values = law(row[:, None], nodes[None, :])
-        return np.asarray(np.linalg.lstsq(power, values.T, rcond=None)[0].T, np.float64)
+    fitting = np.linalg.pinv(power).T
 
-    def weighted(row: Array) -> Array:
-        values = law(row[:, None], nodes[None, :])
+    def fit(values: Array) -> Array:
+        return np.asarray(values @ fitting, np.float64)
+
+    def weighted(values: Array) -> Array:
         weight = weights(values)
         scaled = np.linalg.pinv(weight[:, :, None] * power)
         return np.asarray(np.einsum("rct,rt->rc", scaled, weight * values), np.float64)
 
     values = law(rows[:, None], nodes[None, :])
-    misfit = np.abs(fit(rows) @ power.T - values)[np.abs(values) < LARGEST_FITTED_LOG_VISCOSITY]
-    method = weighted if np.max(misfit) > FIT_TOLERANCE else fit
-    slope = 8 * (method(rows + d) - method(rows - d)) - method(rows + 2 * d) + method(rows - 2 * d)
-    return np.stack([method(rows), slope / (12 * DIFFERENCE)], axis=1)
+    found = fit(values)
+    misfit = np.abs(found @ power.T - values)[np.abs(values) < LARGEST_FITTED_LOG_VISCOSITY]
+    method = fit
+    if np.max(misfit) > FIT_TOLERANCE:
+        method, found = weighted, weighted(values)
+    lower, low, high, higher = (
+        method(law(rows[:, None] + shift * d, nodes[None, :])) for shift in (-2, -1, 1, 2)
+    )
+    slope = 8 * (high - low) - higher + lower
+    return np.stack([found, slope / (12 * DIFFERENCE)], axis=1)
 
 
 def thinning_table(lubricant: Lubricant) -> tuple[Array, float]:

@@ -4,6 +4,7 @@
 """
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -311,12 +312,22 @@ def line_shapes(
     """
     if grid.crowding:
         return _crowded_shapes(grid, influence, lines)
-    point, dipole = line_influence(influence, parts)
-    others = (influence(line + 1, slice(0, point.size)) for line in range(lines))
-    point += 2.0 * sum(others, np.zeros(point.size))  # lines on both sides move along
+    point, dipole = _uniform_shapes(influence, parts, lines)
     along, aside = parts
     every = np.array([along, aside, aside, aside])
     return LineShapes(*(np.tile(one, (grid.shape[0], 1)) for one in (point, dipole, every)))
+
+
+@lru_cache(maxsize=64)
+def _uniform_shapes(
+    influence: Influence, parts: tuple[float, float], lines: int
+) -> tuple[Array, Array]:
+    """Return point and dipole of `line_shapes`, of any line, read-only."""
+    point, dipole = line_influence(influence, parts)
+    others = (influence(line + 1, slice(0, point.size)) for line in range(lines))
+    point += 2.0 * sum(others, np.zeros(point.size))  # lines on both sides move along
+    point.flags.writeable = dipole.flags.writeable = False
+    return point, dipole
 
 
 def _crowded_shapes(grid: Grid, influence: Influence, lines: int) -> LineShapes:
