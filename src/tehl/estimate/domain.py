@@ -6,7 +6,7 @@ from dataclasses import replace
 from tehl.contact.moment import courses_of, moments_of
 from tehl.contact.options import USUAL_PLAIN_ERROR, Domain, Options
 from tehl.estimate.duration import duration_of
-from tehl.estimate.entering import entry_error
+from tehl.estimate.entering import body_contrast, entry_error
 from tehl.estimate.film_formulas import expected_central_film, moes_film_unit
 from tehl.estimate.line import OUTLET, line_domain, line_edge_error, line_field_error
 from tehl.estimate.scaling import Groups, ScaledProblem
@@ -20,6 +20,10 @@ LARGEST_DOMAIN_FACTOR = 2.5
 """Largest factor on the domain because of the temperature of the bodies."""
 DOMAIN_STEP, ENTRY_PART = 1.05, 0.3
 """Steps of that factor, and part of the error of the domain that it leaves to the oil entering."""
+INLET_HEAT_PART = 0.15
+"""Part of it that is left to the heat of the inlet of a point contact, which a longer inlet alone
+makes smaller: 0.3 % of a film within 1 %. With twice that a gear tooth (M = 255, L = 28) needs 321
+nodes along x in place of 129."""
 ELASTIC = 0.1
 """Error by zero pressure on the edges over the square of the width of the gap over the distance of
 the sides (0.05 to 0.08 measured for M = 10 to 100)."""
@@ -274,8 +278,13 @@ def _of_film(scaled: ScaledProblem, error: float, *, near: bool) -> Domain:
         return starved_domain(scaled)
     least = domain = recommended_domain(scaled.entering, error, near=near)
     factor, shape = 1.0, scaled.groups.shape
-    while factor < LARGEST_DOMAIN_FACTOR and entry_error(scaled, domain) > ENTRY_PART * error:
+    is_heated = not shape.as_line and not body_contrast(scaled)
+    left = (INLET_HEAT_PART if is_heated else ENTRY_PART) * error
+    while factor < LARGEST_DOMAIN_FACTOR and entry_error(scaled, domain) > left:
         factor = min(DOMAIN_STEP * factor, LARGEST_DOMAIN_FACTOR)
+        if is_heated:
+            domain = _rectangle(-factor * least.x[0], least.x[1], least.y[1])
+            continue
         x, y = ((factor * low, factor * high) for low, high in (least.x, least.y))
         domain = Domain.model_construct(x=x, y=shape.sides if shape.as_line else y)
     return domain

@@ -72,7 +72,7 @@ def entry_error(scaled: ScaledProblem, domain: Domain) -> float:
     domain : Domain
         The distance of the inlet edge decides, in Hertz half-widths.
     """
-    contrast = abs(math.log(scaled.entering.lambda_bar / scaled.groups.lambda_bar))
+    contrast = body_contrast(scaled)
     heated = _reverse_flow_error(scaled, domain)
     if not contrast:
         return heated
@@ -80,6 +80,11 @@ def entry_error(scaled: ScaledProblem, domain: Domain) -> float:
     kept = float(kept_part(scaled, inlet, np.zeros(1))[0])
     thick = THICK_FILM_ERROR * (WIDTHS * math.sqrt(2.0 * _film(scaled)) / inlet) ** 3
     return heated + contrast * kept * (THIN_FILM_ERROR * (DISTANCE / inlet) ** 2 + thick)
+
+
+def body_contrast(scaled: ScaledProblem) -> float:
+    """Return |ln(viscosity at the bodies over that at the inlet)|; zero if they are as warm [-]."""
+    return abs(math.log(scaled.entering.lambda_bar / scaled.groups.lambda_bar))
 
 
 def _reverse_flow_error(scaled: ScaledProblem, domain: Domain) -> float:

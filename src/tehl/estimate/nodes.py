@@ -6,6 +6,7 @@ from dataclasses import replace
 from tehl.contact.options import Domain, Options
 from tehl.contact.shape import LINE
 from tehl.estimate.domain import domain_of, far_field_error
+from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.grid import END_CELL, Grid, can_mirror, crowding
 from tehl.estimate.line import LINE_ROUGH_NODES, line_bar, line_points
@@ -220,7 +221,8 @@ def _third_order_points(
     They are more than ``least`` along x. Without a margin the fewest are taken, with more along x
     if half as many along y are then enough.
     """
-    left, groups = _left_to_the_mesh(scaled.entering, domain, error), scaled.groups
+    left = _left_to_the_mesh(scaled.entering, domain, error - entry_error(scaled, domain))
+    groups = scaled.groups
     if groups.skew or groups.ellipticity < 1.0:
         return _wide_or_turned_points(scaled, domain, left, least)
     has_margin = groups.ellipticity < LIMITED_RATIO or groups.L > LIMITED_SPEED

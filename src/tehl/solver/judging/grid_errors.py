@@ -343,7 +343,7 @@ def _raise_heats(found: dict[str, float], heats: dict[str, float], film: float) 
     if "heat_shear" in found:  # the shear rate is the sliding speed over the film
         found["heat_shear"] = max(found["heat_shear"], film)
     # parts of the heat that shear generates
-    for name in ("heat_surface_1", "heat_surface_2", "heat_carried_out"):
+    for name in ("heat_surface_1", "heat_surface_2", "heat_carried_out", "heat_compression"):
         if name in found:
             shared = CONDUCTED * found["heat_shear"] * abs(heats["heat_shear"] / heats[name])
             found[name] = max(found[name], shared)
