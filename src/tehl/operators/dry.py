@@ -1,7 +1,8 @@
 """Dry pressure; of a roller that which makes the gap zero where it is positive.
 
 Conjugate gradients with the load as a constraint (Polonsky and Keer, Wear 231 (1999) 206-219): the
-descent is the gap less its mean over the contact, and nodes of negative pressure leave it.
+descent is the gap less its mean over the contact, and nodes of negative pressure leave it. A stated
+moment is a second constraint, and the descent is free of the tilt too.
 """
 
 from functools import lru_cache
@@ -12,7 +13,7 @@ from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 from tehl.operators.deformation import choose
-from tehl.operators.film import gap
+from tehl.operators.film import gap, rigid_motions
 from tehl.operators.load import Load
 
 MOST_DESCENTS, DRY_CHANGE = 400, 1e-6
@@ -20,8 +21,10 @@ MOST_DESCENTS, DRY_CHANGE = 400, 1e-6
 
 
 @lru_cache(maxsize=8)
-def dry_roller(grid: Grid, groups: Groups) -> Array:
-    """Return the dry pressure of a roller, ``grid.shape``, read-only [-].
+def dry_roller(grid: Grid, groups: Groups) -> tuple[Array, Array]:
+    """Return the dry pressure of a roller, ``grid.shape``, and its tilts, both read-only [-].
+
+    Tilts are those that follow from stated moments, (motions - 1,), beside that of the shape.
 
     Parameters
     ----------
@@ -40,27 +43,44 @@ def dry_roller(grid: Grid, groups: Groups) -> Array:
         np.empty_like(undeformed),
         np.zeros_like(undeformed),
     )
-    conjugate, before = 0.0, 1.0
+    conjugate, before, tilts = 0.0, 1.0, np.zeros(0)
+    modes, moments = rigid_motions(grid, groups)
+    modes = modes[1:, :, None]
     for _ in range(MOST_DESCENTS):
         touching = p > 0.0
         deformation.deflect(p, rest)
         rest += undeformed
         part = touching * weight
-        rest -= (part * rest).sum() / part.sum()
+        tilts = -_take_motions(rest, part, modes)
         square = float((part * rest**2).sum())
         step = np.where(touching, rest + conjugate * square / before * step, 0.0)
         deformation.deflect(step, bent)
-        bent -= (part * bent).sum() / part.sum()
+        _take_motions(bent, part, modes)
         length = float((part * rest * step).sum() / (part * bent * step).sum())
         last, p = p, np.maximum(p - length * step, 0.0)
         missed = inside & (p == 0.0) & (rest < 0.0)
         p[missed] -= length * rest[missed]
         p *= shape.load / load.integral(p)
+        for mode, moment in zip(modes, moments, strict=True):
+            arm = mode - load.integral(mode * p) / shape.load
+            more = (moment - load.integral(mode * p)) / load.integral(arm * mode * p)
+            p *= np.maximum(1.0 + more * arm, 0.0)
         conjugate, before = 0.0 if missed.any() else 1.0, square
         if float(np.abs(p - last).sum()) < DRY_CHANGE * float(p.sum()):
             break
-    p.flags.writeable = False
-    return p
+    p.flags.writeable = tilts.flags.writeable = False
+    return p, tilts
+
+
+def _take_motions(film: Array, part: Array, modes: Array) -> Array:
+    """Take the mean of a film over a contact from it, and its tilt; return tilts over ``modes``."""
+    film -= (part * film).sum() / part.sum()
+    found = []
+    for mode in modes:
+        arm = mode - (part * mode).sum() / part.sum()
+        found.append((part * arm * film).sum() / (part * arm**2).sum())
+        film -= found[-1] * arm
+    return np.array(found)
 
 
 def dry_pressure(grid: Grid, groups: Groups) -> Array:
@@ -74,5 +94,19 @@ def dry_pressure(grid: Grid, groups: Groups) -> Array:
         Shape of the contact.
     """
     if groups.roller is not None:
-        return dry_roller(grid, groups).copy()
+        return dry_roller(grid, groups)[0].copy()
     return groups.shape.dry_pressure(grid.x[None, :], grid.y[:, None])
+
+
+def dry_motions(grid: Grid, groups: Groups, approach: float = 0.0) -> Array:
+    """Return the rigid motions of the dry contact: an approach, and tilts by moments, (motions,).
+
+    Parameters
+    ----------
+    grid, groups : Grid, Groups
+        Nodes, and the contact.
+    approach : float
+        H00 [-].
+    """
+    tilts = np.zeros(0) if groups.roller is None else dry_roller(grid, groups)[1]
+    return np.append(approach, tilts)

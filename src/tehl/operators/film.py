@@ -1,4 +1,4 @@
-"""Film equation H = H00 + gap + K P (docs/theory/model.md): undeformed gap."""
+"""Film equation H = H00 + gap + K P (docs/theory/model.md): undeformed gap and rigid motions."""
 
 import numpy as np
 
@@ -30,3 +30,20 @@ def gap(grid: Grid, groups: Groups, curvature: float = 1.0) -> Array:
         rise = groups.roller.rise(places).mean(axis=0) - groups.roller.rise(grid.y)
         found = found + rise[:, None]
     return found if curvature == 1.0 else found + 0.5 * (curvature - 1.0) * x**2
+
+
+def rigid_motions(grid: Grid, groups: Groups) -> tuple[Array, Array]:
+    """Return the film by each rigid motion over its size, and the stated moments.
+
+    The first motion is the approach, which lifts all lines by one; a second one the tilt of a
+    roller whose moment is stated, by Y. Shapes (motions, ny) and (motions - 1,).
+
+    Parameters
+    ----------
+    grid, groups : Grid, Groups
+        On one half of a contact that is symmetric in y nothing tilts.
+    """
+    approach, roller = np.ones((1, grid.shape[0])), groups.roller
+    if roller is None or roller.moment is None or grid.mirror:
+        return approach, np.zeros(0)
+    return np.append(approach, grid.centres[None], axis=0), np.array([roller.scaled_moment])

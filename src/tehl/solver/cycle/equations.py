@@ -22,7 +22,7 @@ from tehl.estimate.starvation import EnteringOil, entering_oil, supplied_film
 from tehl.kernels import reynolds
 from tehl.operators.deformation import Deformation, choose
 from tehl.operators.far_field import Edges, far_field
-from tehl.operators.film import gap
+from tehl.operators.film import gap, rigid_motions
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence, influence_of
 from tehl.operators.load import Load
@@ -151,20 +151,6 @@ class Equations:
             floor=_floor(scaled),
             entrainment=entrainment(grid, scaled),
         )
-
-
-def rigid_motions(grid: Grid, groups: Groups) -> tuple[Array, Array]:
-    """Return ``modes`` and ``moments`` of `Equations`.
-
-    Parameters
-    ----------
-    grid, groups : Grid, Groups
-        On one half of a contact that is symmetric in y nothing tilts.
-    """
-    approach, roller = np.ones((1, grid.shape[0])), groups.roller
-    if roller is None or roller.moment is None or grid.mirror:
-        return approach, np.zeros(0)
-    return np.append(approach, grid.centres[None], axis=0), np.array([roller.scaled_moment])
 
 
 def boundary_film(scaled: ScaledProblem) -> float | None:

@@ -10,7 +10,7 @@ from tehl.base.typing import Array, BoolArray, FlagArray
 from tehl.contact.boundary_contact import TOUCHING_MARGIN
 from tehl.kernels import summits
 from tehl.kernels.properties import Film
-from tehl.operators.dry import dry_pressure
+from tehl.operators.dry import dry_motions, dry_pressure
 from tehl.operators.summits import AsperityTable
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.judging.film_summary import central_value
@@ -100,13 +100,15 @@ class Summits(OilAlone):
         pressed far into each other in it.
         """
         middle = self.table.separation(expected_film)
-        level.set_state(dry_pressure(self.equations.grid, self.equations.groups), 0.0, 0.0)
+        grid, groups = self.equations.grid, self.equations.groups
+        level.set_state(dry_pressure(grid, groups), dry_motions(grid, groups), 0.0)
         if self.table.pressure(middle) <= LARGEST_SHARE_FROM_HERTZ:
             level.update()
         else:
             self._press_dry(level)
-            level.set_state(level.film.asperity, level.rigid_approach, 0.0)
-        level.move(middle - central_value(self.equations.grid, level.separation))
+            rigid = dry_motions(grid, groups, level.rigid_approach)
+            level.set_state(level.film.asperity, rigid, 0.0)
+        level.move(middle - central_value(grid, level.separation))
 
     def _pressed(self) -> tuple[Array, float]:
         """Return the Hertz pressure, ``grid.shape``, and the approach under it [-]."""
@@ -123,7 +125,8 @@ class Summits(OilAlone):
         grows as its power 3/2 (Hertz).
         """
         pressure, approach = self._pressed()
-        level.set_state(np.zeros_like(pressure), -approach, pressure)
+        rigid = dry_motions(self.equations.grid, self.equations.groups, -approach)
+        level.set_state(np.zeros_like(pressure), rigid, pressure)
         missing, solids = -level.load_error(), level.film.asperity
         for _ in range(DRY_STEPS):
             before = solids.copy()
