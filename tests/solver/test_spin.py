@@ -62,6 +62,24 @@ def test_a_little_spin_changes_the_central_film_by_its_square_and_the_sides_in_p
     assert (lows[2] - lows[0]) / (lows[1] - lows[0]) == pytest.approx(2.0, rel=0.1)
 
 
+@pytest.mark.parametrize(("angle", "order"), [(0.0, 2), (90.0, 2), (45.0, 1)])
+def test_a_little_spin_of_an_ellipse_changes_its_middle_by_the_square_but_at_an_angle(angle, order):
+    along = moes_contact(20.0, 5.0, radius_ratio=RATIO)
+    turned = along.contact.model_copy(update={"entrainment_angle": np.radians(angle)})
+    problem = along.model_copy(update={"contact": turned})
+    films = []
+    for spin in (0.0, 0.1, -0.1, 0.2):
+        omega = spin * problem.entrainment_speed / problem.hertz.half_width_x
+        contact = turned.model_copy(update={"spin_1": omega, "spin_2": omega})
+        found = solved(problem.model_copy(update={"contact": contact}), points=129)
+        films.append(found.film.central)
+    small, opposite, large = (film / films[0] - 1.0 for film in films[1:])
+    assert small == pytest.approx((-1.0) ** order * opposite, rel=0.2 if order == 1 else 1e-6)
+    assert large / small == pytest.approx(2.0**order, rel=0.1)
+    # by the square a fall along the long axis, and a rise across it
+    assert small == pytest.approx({0.0: -0.0023, 90.0: 0.0012, 45.0: 0.021}[angle], rel=0.1)
+
+
 def test_a_nearly_rigid_ball_that_spins_moves_no_oil_by_it():
     """The velocity is then along lines of equal gap: the wedge and its far field are the same."""
     plain, spun = (solved(spinning(spin, 1.0, 5.0)) for spin in (0.0, 0.5))
