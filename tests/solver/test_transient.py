@@ -7,7 +7,7 @@ import pytest
 
 from tehl import InputError, solve, solve_transient
 from tehl.api.problem import ContactProblem
-from tehl.api.results import TransientResult
+from tehl.api.results import ConvergenceError, TransientResult
 from tehl.contact.options import Domain, Options
 from tehl.estimate.scaling import scales
 from tehl.solver.monitor import SILENT
@@ -60,6 +60,17 @@ def test_a_film_without_roughness_stays_steady():
     np.testing.assert_allclose(run.profiles.film, run.profiles.film[:1].repeat(12, 0), rtol=1e-6)
     largest = start.pressure.max()
     np.testing.assert_allclose(run.frames.pressure[-1], start.pressure, rtol=0, atol=1e-6 * largest)
+
+
+def test_a_run_starts_from_a_film_as_accurate_as_asked_if_a_tight_one_is_not_reached(monkeypatch):
+    monkeypatch.setattr("tehl.solver.transient.run.START_TOLERANCE", 1e-30)
+    case = in_time(0.2)
+    run = solve_transient(case, OPTIONS)
+    assert run.status.converged
+    assert run.start.film.central == pytest.approx(solve(moes_contact(M, L), OPTIONS).film.central)
+    tight = OPTIONS.model_copy(update={"accuracy": "tight"})
+    with pytest.raises(ConvergenceError, match="steady film at time zero did not converge"):
+        solve_transient(case, tight)
 
 
 def test_the_film_at_time_zero_is_the_steady_film():

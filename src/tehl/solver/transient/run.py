@@ -34,8 +34,10 @@ from tehl.solver.transient.step import StepEnd, StepError, Stepper
 
 SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
 """Relaxations of a step, fastest first; and those for heated or shear-thinning films."""
-START_TOLERANCE = 1e-7
-"""Tolerance of the steady film at time zero."""
+START_TOLERANCE, TIGHT_TIME = 1e-7, 0.5
+"""Tolerance of the steady film at time zero, and part of the time for it."""
+UNSETTLED = ("stalled", "too_few_cycles")
+"""Causes of a failed start that another accuracy may remove."""
 NEARLY_CONVERGED = 1e-6
 """Change of P in the last cycle of a time step that only a tight tolerance rejects."""
 
@@ -342,11 +344,21 @@ def _shapes(fields: dict[str, Array]) -> dict[str, tuple[tuple[int, ...], np.dty
 def _steady_start(
     problem: ContactProblem, options: Options, *, rough: bool, monitor: StepMonitor
 ) -> tuple[Attempt, Solution]:
-    """Solve for the steady film at time zero, with the load of that time, rough or smooth."""
+    """Solve for the steady film at time zero, with the load of that time, rough or smooth.
+
+    Heat and film may alternate by less than the mesh errs: then the accuracy of the options is
+    enough.
+    """
     tight = options.model_copy(
-        update={"accuracy": "tight", "tolerance": min(options.tolerance, START_TOLERANCE)}
+        update={
+            "accuracy": "tight",
+            "tolerance": min(options.tolerance, START_TOLERANCE),
+            "max_time": TIGHT_TIME * options.max_time,
+        }
     )
     attempt, result = try_strategies(problem, tight, monitor=monitor, rough=rough)
+    if result.status.cause in UNSETTLED and options.accuracy != "tight":
+        attempt, result = try_strategies(problem, options, monitor=monitor, rough=rough)
     result = result.but(options=options)
     if not result.status.converged:
         message = f"The steady film at time zero did not converge: {result.status.message}"
