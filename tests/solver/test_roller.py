@@ -14,6 +14,7 @@ from tehl.estimate.third_order import third_order_bar
 from tehl.operators.dry import dry_pressure
 from tehl.plots import pressure_map
 from tehl.plots.frame import pressure_top
+from tehl.solver.judging.film_summary import film_summary
 
 STEEL = {"material": "steel"}
 LOGARITHMIC = {"shape": "logarithmic"}
@@ -64,6 +65,13 @@ def test_the_middle_of_a_roller_is_a_line_contact(logarithmic):
     assert found.rolling.closure_error == pytest.approx(0.0, abs=1e-4)
     assert found.rolling.T == pytest.approx(line.rolling.T, rel=0.05)
     assert abs(found.scaled.y[found.scaled.film.min(axis=1).argmin()]) > 0.9
+
+
+def test_the_minimum_film_beside_a_steep_end_is_positive():
+    ends = Domain.model_construct(x=(-1.6, 1.6), y=(-1.0, 1.0))
+    grid = Grid(nx=33, ny=65, domain=ends, mirror=False)
+    film = 1e-3 * (1.0 + grid.x**2) + 1e2 * np.maximum(np.abs(grid.y[:, None]) - 0.9, 0.0) ** 2
+    assert film_summary(grid, film).minimum == pytest.approx(1e-3, rel=0.15)
 
 
 def test_only_the_inlet_edge_can_starve_a_roller():

@@ -1,5 +1,6 @@
 """Central and minimum film, interpolated between the nodes of a grid."""
 
+import math
 from dataclasses import replace
 from functools import cache
 
@@ -16,6 +17,11 @@ SPLINE_SPAN = 1.5
 SPLINE_SAMPLES = 121
 """Samples of the spline per direction: the minimum of the samples is above that of the spline by
 1e-4 of the change over one mesh width."""
+
+LEAST_OF_NODE = 0.8
+"""Minimum of the spline over the smallest node below which that of the logarithm of the film is
+taken: beside steep ends of rollers it grows a hundredfold within some lines, and its spline is
+negative. Where the ends are smooth, both agree within 1 %."""
 
 
 def central_value(grid: Grid, field: Array) -> float:
@@ -73,6 +79,9 @@ def film_summary(grid: Grid, film: Array, least: float | None = None) -> FilmSum
     across, along = min(SPLINE_NODES, j, grid.ny - 1 - j), min(SPLINE_NODES, i, grid.nx - 1 - i)
     patch = full[j - across : j + across + 1, i - along : i + along + 1]
     minimum, (shift_y, shift_x) = subgrid_minimum(patch)
+    if grid.is_closed and minimum < LEAST_OF_NODE * full[j, i] and patch.min() > 0.0:
+        logarithm, (shift_y, shift_x) = subgrid_minimum(np.log(patch))
+        minimum = math.exp(logarithm)
     at_y = float(np.interp(j + shift_y, np.arange(row.size), row))
     floor = -np.inf if least is None else least
     return FilmSummary(
