@@ -19,6 +19,7 @@ from tehl.io.templates import template_text
 from tehl.post.bodies import bodies
 from tehl.report.explain import explain
 from tehl.report.page import report_text
+from tehl.solver import steady
 from tehl.solver.monitor import Silent
 
 COARSE = Options(error=0.05)
@@ -153,3 +154,17 @@ def test_a_contact_that_runs_away_exits_with_1_and_its_cause(tmp_path, monkeypat
     assert "10000 K/W" in said["message"].replace("1e+04", "10000")
     assert said["hint"].startswith("Lower the thermal resistance")
     assert load(tmp_path / "case.nc").bodies[0] > 313.15
+
+
+def test_the_response_is_that_of_the_film_between_the_balanced_bodies_alone(monkeypatch):
+    known, calls = steady.with_dynamics, []
+
+    def counted(result, run):
+        calls.append(result.problem.surface_1.temperature)
+        return known(result, run)
+
+    monkeypatch.setattr(steady, "with_dynamics", counted)
+    dynamics = {"frequencies": ["1 kHz"]}
+    found = solve(warmed(5.0, dynamics=dynamics), Options(points=65))
+    assert calls == [found.bodies[0]]
+    assert found.dynamics.stiffness.min() > 0.0

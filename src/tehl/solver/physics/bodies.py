@@ -61,9 +61,12 @@ def solve(
         return steady.solve(problem, options, guess=guess, monitor=monitor)
     films = _Films(problem, options, guess, monitor)
     try:
-        balanced(problem, films.heats)
+        bodies = balanced(problem, films.heats)
     except NotBalancedError as error:
         raise films.failure(error) from None
+    if problem.dynamics is not None:
+        films.contact = problem
+        films.heats(*bodies)
     result = films.result
     if not result.status.converged:
         raise ConvergenceError(result.status.message or "not converged", result)
@@ -81,13 +84,14 @@ class _Films:
         monitor: Monitor,
     ) -> None:
         self.problem, self.options, self.monitor = problem, options, monitor
+        self.contact = problem.model_copy(update={"dynamics": None})  # those of the last are kept
         self.guess, self.cost = guess, Cost(cpu_seconds=0.0, wall_seconds=0.0)
         self.last: ConvergenceError | None = None
         self.is_begun = False
 
     def heats(self, first: float, second: float) -> tuple[float, float] | None:
         """Return the heat into both bodies at their temperatures [W]; None if the film fails."""
-        between = self.problem.with_bodies(first, second)
+        between = self.contact.with_bodies(first, second)
         self.last, cycles = None, SILENT if self.is_begun else self.monitor
         try:
             found = steady.solve(between, self.options, guess=self.guess, monitor=cycles)
