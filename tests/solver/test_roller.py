@@ -1,9 +1,12 @@
 """Rollers of finite length: dry pressure, middle and ends of the film, tilt; long cells."""
 
+import tomllib
+
 import numpy as np
 import pytest
 
 import tehl
+from tehl.api.problem import case_from_tables
 from tehl.cli.text import as_text
 from tehl.contact.options import Domain, Options
 from tehl.estimate.domain import domain_of
@@ -11,6 +14,7 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.estimate.third_order import third_order_bar
+from tehl.io.templates import template_text
 from tehl.operators.dry import dry_pressure
 from tehl.plots import pressure_map
 from tehl.plots.frame import pressure_top
@@ -329,3 +333,11 @@ def test_wide_ellipses_converge_as_fast_as_circles(stretch):
 def test_bad_input_is_named(stated, message):
     with pytest.raises(tehl.TehlError, match=message):
         roller(**stated)
+
+
+def test_the_template_converges_by_the_first_strategy():
+    """On end cells as long as between thin films its cycles stall, and take a minute."""
+    problem, _ = case_from_tables(tomllib.loads(template_text("roller")))
+    found = tehl.solve(problem)
+    assert {one.smoother for one in found.history} == {"fast"}
+    assert found.history[-1].points == (257, 129)

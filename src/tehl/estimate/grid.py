@@ -28,6 +28,9 @@ END_CELL, LEAST_PART, CROWDING_STEPS = 1.4, 0.02, 40
 """Length of the last cells of a roller over their width: with 1 single nodes there alternate from
 cycle to cycle, with 2 the thinnest film of a logarithmic profile errs three times as much. Least
 part of the mean distance of lines that it may be; iterations for c."""
+END_FILM = 0.1
+"""Central film from which on those cells are longer, by its square root: between thick films nodes
+alternate on longer ones too (M 12, L 15 with a tilt: cycles stall with 1.4, and not with 2)."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
