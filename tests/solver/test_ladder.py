@@ -214,3 +214,6 @@ def test_a_film_too_thin_for_coarse_grids_converges_by_small_steps_of_relaxation
     central, minimum = nodal_film(run.finest)
     assert 0.6 * central < minimum < central
     assert central == pytest.approx(hierarchy.expected_film, rel=0.3)
+    # between less thin ones the usual strategies, which most of them take, come before
+    less = ScaledProblem.of(moes_contact(60_000.0, 3.0, radius_ratio=16.0))
+    assert [one.relaxation is THIN for one in ladder(less, options, rough=False)[:3]] == [0, 0, 1]
