@@ -104,8 +104,7 @@ class Climb:
         plan : Options
             With the nodes of the finest grid.
         rungs : tuple of Strategy
-            Those with another order of the wedge have as many nodes along y as along x, except of
-            wide contacts.
+            Those with another wedge order have as many lines as columns, but of wide contacts.
         """
         best: Attempt | None = None
         solved: tuple[Solved, ...] = ()
@@ -115,8 +114,7 @@ class Climb:
             if strategy.wedge_order is not None and strategy.wedge_order != plan.order:
                 plan = plan.model_copy(update={"wedge_order": strategy.wedge_order})
                 lines, nodes = plan.shape
-                if lines > 1 and self.scaled.groups.ellipticity >= 1.0:
-                    lines = nodes
+                lines = nodes if lines > 1 and self.scaled.groups.ellipticity >= 1.0 else lines
                 plan, solved = self.goal.fitting(plan.on_points(nodes, lines)), ()
             # Newton's method is expensive: the cycles before it are tried to the end
             force = all(one.newton for one in rungs[number + 1 :])
