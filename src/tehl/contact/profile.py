@@ -101,13 +101,7 @@ class Logarithmic(Table):
         return self
 
     def drop(self, s: Array, roller: Loaded) -> Array:
-        """Return the drop [m].
-
-        Parameters
-        ----------
-        s, roller : Array, Loaded
-            2 y over the length [-], and its roller.
-        """
+        """Return the drop [m] at s = 2 y over the length of a roller."""
         if self.diameter is not None:
             return self._of_standard(s, roller.length, self.diameter)
         part = 1.0 if self.design_load is None else self.design_load / roller.force
@@ -162,13 +156,7 @@ class Tabulated(Table):
         )
 
     def drop(self, s: Array, roller: Loaded) -> Array:
-        """Return the drop [m].
-
-        Parameters
-        ----------
-        s, roller : Array, Loaded
-            2 y over the length [-], and its roller.
-        """
+        """Return the drop [m] at s = 2 y over the length of a roller."""
         places, drops = np.array(self.drops).T
         y = 0.5 * roller.length * s
         return np.interp(np.abs(y) if places[0] >= 0.0 else y, places, drops)

@@ -98,23 +98,11 @@ class Roller(Line):
         return drop / self.film_unit
 
     def gap(self, x: Array, y: Array) -> Array:
-        """Return X^2/2 + g(Y).
-
-        Parameters
-        ----------
-        x, y : Array
-            X and Y, which broadcast [-].
-        """
+        """Return X^2/2 + g(Y)."""
         return 0.5 * x**2 + self.rise(y)
 
     def radius_squared(self, x: Array, y: Array) -> Array:
-        """Return X^2 + Y^2 as on an ellipse, of a piece that goes on X^2.
-
-        Parameters
-        ----------
-        x, y : Array
-            X and Y, which broadcast [-].
-        """
+        """Return X^2 + Y^2 as on an ellipse, of a piece that goes on X^2."""
         return x**2 + (0.0 if self.goes_on else 1.0) * y**2
 
     @property
@@ -142,56 +130,26 @@ class Roller(Line):
         return np.maximum(high - self.rise(y), 0.0) / compliance(high)
 
     def dry_pressure(self, x: Array, y: Array) -> Array:
-        """Return that of slices of `share`, sqrt(f - X^2).
-
-        Parameters
-        ----------
-        x, y : Array
-            X and Y, which broadcast [-].
-        """
+        """Return that of slices of `share`, sqrt(f - X^2)."""
         return np.sqrt(np.maximum(0.0, self.share(y) - x**2))
 
     def dry_gap(self, x: Array, y: Array) -> Array:
-        """Return the gap of such slices.
-
-        Parameters
-        ----------
-        x, y : Array
-            X and Y, which broadcast [-].
-        """
+        """Return the gap of such slices."""
         share = np.maximum(self.share(y), 1e-6)
         return share * LINE.dry_gap(x / np.sqrt(share), 0.0 * y)
 
     def hertz(self, load: float, radii: Radii, modulus: float) -> HertzContact:
-        """Return the line contact under the mean load.
-
-        Parameters
-        ----------
-        load, radii, modulus : float, Radii, float
-            Load [N], reduced radii [m], and E' [Pa].
-        """
+        """Return the line contact under the mean load."""
         line = LINE.hertz(load / self.length, radii, modulus)
         half = 0.5 * self.length
         return replace(line, half_width_y=half, ellipticity=half / line.half_width_x)
 
     def load_of_pressure(self, pressure: float, radii: Radii, modulus: float) -> float:
-        """Return the load [N].
-
-        Parameters
-        ----------
-        pressure, radii, modulus : float, Radii, float
-            Largest dry pressure of the mean load [Pa], reduced radii [m], and E' [Pa].
-        """
+        """Return the load [N] of the largest dry pressure under the mean load [Pa]."""
         return self.length * LINE.load_of_pressure(pressure, radii, modulus)
 
     def load_unit(self, radius: float, modulus: float) -> float:
-        """Return E' R_x times the length [N].
-
-        Parameters
-        ----------
-        radius, modulus : float
-            R_x [m] and E' [Pa].
-        """
+        """Return E' R_x times the length [N]."""
         return modulus * radius * self.length
 
 

@@ -129,36 +129,18 @@ class Ellipse:
         return self.radius_ratio * self.ellipticity**2
 
     def gap(self, x: Array, y: Array) -> Array:
-        """Return X^2/2 + C X Y + D kappa^2 Y^2/2.
-
-        Parameters
-        ----------
-        x, y : Array
-            X and Y, which broadcast [-].
-        """
+        """Return X^2/2 + C X Y + D kappa^2 Y^2/2."""
         gap = 0.5 * x**2 + 0.5 * self.across * y**2
         return gap + self.twist * x * y if self.twist else gap
 
     def radius_squared(self, x: Array, y: Array) -> Array:
-        """Return (X^2 - 2 s X Y + Y^2)/(1 - s^2): one on the rim of the contact.
-
-        Parameters
-        ----------
-        x, y : Array
-            X and Y, which broadcast [-].
-        """
+        """Return (X^2 - 2 s X Y + Y^2)/(1 - s^2): one on the rim of the contact."""
         if self.skew == 0.0:
             return x**2 + y**2
         return (x**2 - 2.0 * self.skew * x * y + y**2) / (1.0 - self.skew**2)
 
     def dry_pressure(self, x: Array, y: Array) -> Array:
-        """Return the square root of one less `radius_squared`, zero outside the contact.
-
-        Parameters
-        ----------
-        x, y : Array
-            X and Y, which broadcast [-].
-        """
+        """Return the square root of one less `radius_squared`, zero outside the contact."""
         if self.skew == 0.0:
             return np.sqrt(np.maximum(0.0, 1.0 - x**2 - y**2))
         return np.sqrt(np.maximum(0.0, 1.0 - self.radius_squared(x, y)))
@@ -184,11 +166,6 @@ class Ellipse:
 
         with t the confocal coordinate of the point. Gauss-Legendre on 48 points in arctan s.
 
-        Parameters
-        ----------
-        x, y : array, broadcast together
-            X, Y in Hertz half-widths of their own direction [-].
-
         References
         ----------
         Johnson (1985), Contact Mechanics, section 3.5 (potential of an ellipsoidal pressure).
@@ -213,47 +190,23 @@ class Ellipse:
         return gap * end / (np.pi * np.mean(cosine / np.sqrt(k2 * cosine + sine)))
 
     def hertz(self, load: float, radii: Radii, modulus: float) -> HertzContact:
-        """Return the dry contact.
-
-        Parameters
-        ----------
-        load, radii, modulus : float, Radii, float
-            Load [N], reduced radii [m], and E' [Pa].
-        """
+        """Return the dry contact."""
         if radii.twist:
             return _turned_contact(load, radii, modulus)
         return hertz_contact(load, radii.x, radii.y, modulus)
 
     def load_of_pressure(self, pressure: float, radii: Radii, modulus: float) -> float:
-        """Return the load [N].
-
-        Parameters
-        ----------
-        pressure, radii, modulus : float, Radii, float
-            Largest dry pressure [Pa], reduced radii [m], and E' [Pa].
-        """
+        """Return the load [N]."""
         if radii.twist:
             radii, _ = radii.principal()
         return load_of_pressure(pressure, radii.x, radii.y, modulus)
 
     def load_unit(self, radius: float, modulus: float) -> float:
-        """Return E' R_x^2 [N].
-
-        Parameters
-        ----------
-        radius, modulus : float
-            R_x [m] and E' [Pa].
-        """
+        """Return E' R_x^2 [N]."""
         return modulus * radius**2
 
     def ratio_squared(self, load: float, factor: float) -> float:
-        """Return (a_x/R_x)^2 [-].
-
-        Parameters
-        ----------
-        load, factor : float
-            W = w/(E' R_x^2), and 2 Pi/pi [-].
-        """
+        """Return (a_x/R_x)^2 [-] for W = w/(E' R_x^2) and 2 Pi/pi."""
         kappa = self.ellipticity * self.narrowing
         return math.cbrt(3.0 * load / (math.pi**2 * kappa * factor)) ** 2
 
@@ -284,42 +237,19 @@ class Line:
         return 1.0
 
     def gap(self, x: Array, y: Array) -> Array:
-        """Return X^2/2.
-
-        Parameters
-        ----------
-        x, y : Array
-            X and Y, which broadcast [-].
-        """
+        """Return X^2/2."""
         return 0.5 * x**2 + 0.0 * y
 
     def radius_squared(self, x: Array, y: Array) -> Array:
-        """Return X^2 + Y^2 as on an ellipse, with Y in metres.
-
-        Parameters
-        ----------
-        x, y : Array
-            X and Y, which broadcast [-].
-        """
+        """Return X^2 + Y^2 as on an ellipse, with Y in metres."""
         return x**2 + y**2
 
     def dry_pressure(self, x: Array, y: Array) -> Array:
-        """Return sqrt(1 - X^2), zero outside the contact.
-
-        Parameters
-        ----------
-        x, y : Array
-            X and Y, which broadcast [-].
-        """
+        """Return sqrt(1 - X^2), zero outside the contact."""
         return np.sqrt(np.maximum(0.0, 1.0 - x**2)) + 0.0 * y
 
     def dry_gap(self, x: Array, y: Array) -> Array:
         """Return (X sqrt(X^2 - 1) - arcosh X)/2 of |X| > 1.
-
-        Parameters
-        ----------
-        x, y : Array
-            X and Y, which broadcast [-].
 
         References
         ----------
@@ -329,13 +259,7 @@ class Line:
         return 0.5 * (x * np.sqrt(x**2 - 1.0) - np.arccosh(x)) + 0.0 * y
 
     def hertz(self, load: float, radii: Radii, modulus: float) -> HertzContact:
-        """Return the dry contact; its approach depends on the bodies far away, and is not known.
-
-        Parameters
-        ----------
-        load, radii, modulus : float, Radii, float
-            Load of one metre [N], reduced radii [m], and E' [Pa].
-        """
+        """Return the dry contact under a load per length [N/m]; its approach is not known."""
         half_width = math.sqrt(8.0 * load * radii.x / (math.pi * modulus))
         return HertzContact(
             half_width_x=half_width,
@@ -346,33 +270,15 @@ class Line:
         )
 
     def load_of_pressure(self, pressure: float, radii: Radii, modulus: float) -> float:
-        """Return the load of one metre [N].
-
-        Parameters
-        ----------
-        pressure, radii, modulus : float, Radii, float
-            Largest dry pressure [Pa], reduced radii [m], and E' [Pa].
-        """
+        """Return the load of one metre [N]."""
         return 2.0 * math.pi * radii.x * pressure**2 / modulus
 
     def load_unit(self, radius: float, modulus: float) -> float:
-        """Return E' R_x of one metre [N].
-
-        Parameters
-        ----------
-        radius, modulus : float
-            R_x [m] and E' [Pa].
-        """
+        """Return E' R_x of one metre [N]."""
         return modulus * radius
 
     def ratio_squared(self, load: float, factor: float) -> float:
-        """Return (b/R_x)^2 [-].
-
-        Parameters
-        ----------
-        load, factor : float
-            W = w/(E' R_x) with the load per length w, and 2 Pi/pi [-].
-        """
+        """Return (b/R_x)^2 [-] for W = w/(E' R_x) of the load per length w, and 2 Pi/pi."""
         return 4.0 * load / (math.pi**2 * factor)
 
 

@@ -187,15 +187,7 @@ class SurfacePatch(_Summits):
         return _curves(self.map, self.map.stamp)
 
     def unit(self, sigma: float, modulus: float) -> float:
-        """Return E*, the unit of `load`, for E' [Pa].
-
-        Parameters
-        ----------
-        sigma : float
-            Not used: the slopes of a patch do not depend on it.
-        modulus : float
-            E' [Pa], twice the contact modulus.
-        """
+        """Return E*, the unit of `load`, for E' [Pa]; ``sigma`` is not used in any method."""
         del sigma
         return 0.5 * modulus
 
@@ -204,28 +196,11 @@ class SurfacePatch(_Summits):
         return self.curves.load(gap)
 
     def pressure(self, gap: "Array", sigma: float, modulus: float) -> "Array":
-        """Return the pressure that the asperities carry at gaps over Sq, for E' [Pa].
-
-        Parameters
-        ----------
-        gap : Array
-            Mean gaps over the Sq of the patch [-].
-        sigma : float
-            Not used: the curves of a patch are over its own Sq.
-        modulus : float
-            E' [Pa], twice the contact modulus.
-        """
+        """Return the pressure that the asperities carry at gaps over Sq, for E' [Pa]."""
         return self.unit(sigma, modulus) * self.load(gap)
 
     def spots(self, gap: "Array", sigma: float) -> "tuple[Array, Array]":
         """Return the part of the area in which asperities touch, and their spots per area.
-
-        Parameters
-        ----------
-        gap : Array
-            Mean gaps over the Sq of the patch [-].
-        sigma : float
-            Not used: the curves of a patch are over its own Sq.
 
         Returns
         -------

@@ -37,7 +37,7 @@ class Deformation(Protocol):
         Parameters
         ----------
         pressure : Array
-            P at the nodes [-], (ny, nx); zero on the edges.
+            P at the nodes [-], (ny, nx), y >= 0 only on mirrored grids; zero on the edges.
         out : Array
             Overwritten by the deflection [-], (ny, nx).
         """
@@ -51,15 +51,7 @@ class DirectDeformation:
         self.matrix = matrix_of(grid, influence_of(grid, groups))
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``.
-
-        Parameters
-        ----------
-        pressure : Array
-            P at the nodes [-], (ny, nx).
-        out : Array
-            Overwritten by the deflection [-], (ny, nx), contiguous.
-        """
+        """Write the deflection under ``pressure`` to ``out``, which is contiguous."""
         np.einsum("mk,k->m", self.matrix, pressure.ravel(), out=out.reshape(-1))
 
 
@@ -80,15 +72,7 @@ class FftDeformation:
         self.transform = np.zeros(self.spectrum.shape, complex)
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``.
-
-        Parameters
-        ----------
-        pressure : Array
-            P at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
-        out : Array
-            Overwritten by the deflection [-], (ny, nx).
-        """
+        """Write the deflection under ``pressure`` to ``out``."""
         ny, nx = pressure.shape
         self.padded[:ny, :nx] = pressure
         if self.mirror:
@@ -117,15 +101,7 @@ class Flattening:
         self.spectrum = np.maximum(size, self.LEAST * size.max())
 
     def deflect(self, film: Array, out: Array) -> None:
-        """Write the pressure that makes ``film`` to ``out``.
-
-        Parameters
-        ----------
-        film : Array
-            Deflection at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
-        out : Array
-            Overwritten by the pressure [-], (ny, nx).
-        """
+        """Write the pressure that makes ``film`` to ``out``."""
         parts = dctn(film, 1, axes=self.axes)
         parts /= self.spectrum
         out[:] = idctn(parts, 1, axes=self.axes, overwrite_x=True)
@@ -149,15 +125,7 @@ class LineDeformation:
         self.mirror = int(grid.mirror)
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``.
-
-        Parameters
-        ----------
-        pressure : Array
-            P at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
-        out : Array
-            Overwritten by the deflection [-], (ny, nx).
-        """
+        """Write the deflection under ``pressure`` to ``out``."""
         np.fft.rfft(pressure, self.period, out=self.transform)
         sum_across(self.transform, self.kernel, self.scratch, self.product, self.mirror)
         np.fft.irfft(self.product, self.period, out=self.convolved)
@@ -176,15 +144,7 @@ class CrowdedDeformation:
         self.kernel = np.ascontiguousarray(np.fft.rfft(table).real.transpose(2, 0, 1))
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``.
-
-        Parameters
-        ----------
-        pressure : Array
-            P at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
-        out : Array
-            Overwritten by the deflection [-], (ny, nx).
-        """
+        """Write the deflection under ``pressure`` to ``out``."""
         lines = np.ascontiguousarray(np.fft.rfft(pressure, self.period).T)
         parts = lines.view(float).reshape(*lines.shape, 2)  # real and imaginary
         product = np.ascontiguousarray(self.kernel @ parts).view(complex)[:, :, 0]
@@ -203,15 +163,7 @@ class MirroredDeformation:
         self.spectrum /= 2 * (grid.shape[0] - 1)  # lines after which all is the same
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``.
-
-        Parameters
-        ----------
-        pressure : Array
-            P at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
-        out : Array
-            Overwritten by the deflection [-], (ny, nx).
-        """
+        """Write the deflection under ``pressure`` to ``out``."""
         parts = np.fft.rfft(dct(pressure, 1, axis=0), self.period)
         parts *= self.spectrum
         lines = np.fft.irfft(parts, self.period)[:, : pressure.shape[1]]
@@ -233,15 +185,7 @@ class BetweenEnds:
         self.halved = np.zeros(grid.shape)
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``.
-
-        Parameters
-        ----------
-        pressure : Array
-            P at the nodes [-], (ny, nx).
-        out : Array
-            Overwritten by the deflection [-], (ny, nx).
-        """
+        """Write the deflection under ``pressure`` to ``out``."""
         self.halved[:] = pressure
         self.halved[self.lines] *= 0.5
         self.inner.deflect(self.halved, out)

@@ -137,13 +137,7 @@ class LineInfluence(Influence):
         return found
 
     def table(self, rows: int, columns: int) -> Array:
-        """Return the influence at offsets 0 to ``rows`` - 1 and 0 to ``columns`` - 1.
-
-        Parameters
-        ----------
-        rows, columns : int
-            Number of offsets along y and along x.
-        """
+        """Return the influence at offsets 0 to ``rows`` - 1 and 0 to ``columns`` - 1."""
         return self(np.arange(rows)[:, None], np.arange(columns)[None, :])
 
 
@@ -192,13 +186,7 @@ class MirroredInfluence(Influence):
         return self.factor * self.dx * self.dy * far
 
     def table(self, rows: int, columns: int) -> Array:
-        """Return the influence at offsets 0 to ``rows`` - 1 and 0 to ``columns`` - 1.
-
-        Parameters
-        ----------
-        rows, columns : int
-            Number of offsets along y and along x.
-        """
+        """Return the influence at offsets 0 to ``rows`` - 1 and 0 to ``columns`` - 1."""
         offsets = np.arange(rows)
         found = self._far(*np.broadcast_arrays(offsets[:, None], np.arange(columns)))
         whole = super().table(rows + self.IMAGES * self.lines, columns)

@@ -97,28 +97,12 @@ class ColumnHalving:
     columns: summation.Columns
 
     def gather(self, fine: Stage, coarse: Stage) -> None:
-        """Restrict the sources: P_c = I^T P.
-
-        Parameters
-        ----------
-        fine : Stage
-            Grid whose ``source`` is read.
-        coarse : Stage
-            Grid with half the columns; its ``source`` is overwritten.
-        """
+        """Restrict the sources: P_c = I^T P."""
         summation.split_columns(fine.source, fine.box, self.columns)
         summation.gather_columns(self.columns, fine.box, coarse.source, coarse.box)
 
     def spread(self, fine: Stage, coarse: Stage) -> None:
-        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P.
-
-        Parameters
-        ----------
-        fine : Stage
-            Grid whose ``total`` is overwritten; :meth:`gather` must have been called for it.
-        coarse : Stage
-            Grid with half the columns, with its ``total``.
-        """
+        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P."""
         grids = (fine.box, coarse.total, coarse.box, fine.total)
         summation.spread_columns(self.columns, self.patch, *grids)
 
@@ -162,15 +146,7 @@ class MultilevelDeformation:
         self.flat = np.zeros(nodes[0] * nodes[1])
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``.
-
-        Parameters
-        ----------
-        pressure : Array
-            P at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
-        out : Array
-            Overwritten by the deflection [-], (ny, nx).
-        """
+        """Write the deflection under ``pressure`` to ``out``."""
         finest, last = self.stages[0], self.stages[-1]
         finest.load(pressure)
         steps = list(zip(self.halvings, self.stages[:-1], self.stages[1:], strict=True))

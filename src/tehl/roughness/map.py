@@ -90,13 +90,7 @@ class Map(MapSettings):
         return loading.tile_of(self)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return sentences on what is unusual about the map for a contact.
-
-        Parameters
-        ----------
-        width, length : float
-            Axes of the Hertz contact along x and y [m]; zero of a line, which takes y = 0.
-        """
+        """Return sentences on what is unusual about the map for a contact or a line (length 0)."""
         heights = self.load()
         extent = _turned(heights.size, self.rotate)
         size = _micro(width, length) if length else f"{1e6 * width:.4g} um"

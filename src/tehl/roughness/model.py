@@ -155,13 +155,7 @@ class TileModel(RoughnessModel):
         return self._tile.height(x, y)
 
     def resolved_on(self, dx: float, dy: float) -> Roughness:
-        """Return the surface without the waves that a mesh cannot carry.
-
-        Parameters
-        ----------
-        dx, dy : float
-            Mesh widths along x and y [m]; waves shorter than two of them are lost.
-        """
+        """Return the surface without the waves that a mesh cannot carry."""
         return self._tile.resolved_on(dx, dy)
 
 

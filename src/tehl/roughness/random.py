@@ -212,13 +212,7 @@ class Random(TileModel):
         return _tile_of(self)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return a sentence if the surface repeats within a contact.
-
-        Parameters
-        ----------
-        width, length : float
-            Axes of the Hertz ellipse along x and y [m].
-        """
+        """Return a sentence if the surface repeats within a contact."""
         if not min(self.period) < math.hypot(width, length) or self.is_smooth:
             return ()
         along, across = (period * 1e6 for period in self.period)

@@ -61,13 +61,7 @@ class _Added(Roughness):
         return total
 
     def resolved_on(self, dx: float, dy: float) -> Roughness:
-        """Return the sum of the parts as a mesh carries them.
-
-        Parameters
-        ----------
-        dx, dy : float
-            Mesh widths along x and y [m].
-        """
+        """Return the sum of the parts as a mesh carries them."""
         return Superposition(tuple(part.resolved_on(dx, dy) for part in self.parts))
 
     @property
@@ -100,13 +94,7 @@ class Sum(_Added, RoughnessModel):
     """What is added."""
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return what is unusual about the parts for a contact.
-
-        Parameters
-        ----------
-        width, length : float
-            Axes of the Hertz ellipse along x and y [m].
-        """
+        """Return what is unusual about the parts for a contact."""
         return tuple(line for part in self.parts for line in part.fits(width, length))
 
 

@@ -98,12 +98,8 @@ class Tile(Roughness):
     def resolved_on(self, dx: float, dy: float) -> "Tile":
         """Return the tile without the waves that a mesh cannot carry.
 
-        The tile itself is returned when it has nothing shorter.
-
-        Parameters
-        ----------
-        dx, dy : float
-            Mesh widths along x and y [m]; for a rotated tile the larger one counts along both axes.
+        The tile itself is returned when it has nothing shorter. For a rotated tile the larger mesh
+        width counts along both axes.
         """
         cosine, sine = direction(self.angle)
         radial = sine != 0 and cosine != 0

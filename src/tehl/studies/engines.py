@@ -151,17 +151,7 @@ class Pool(Engine):
         return self._jobs
 
     def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
-        """Send a task to an idle process.
-
-        Parameters
-        ----------
-        ticket : Ticket
-            Returned with the result.
-        function : callable
-            Importable by workers, so a function of a module.
-        *arguments
-            Must be picklable.
-        """
+        """Send a task to an idle process."""
         if not self._idle:
             self._idle = self._started(self._jobs - len(self._busy))
         worker = self._idle.pop()

@@ -216,15 +216,7 @@ class Memory(Store):
         return bool(self._known)
 
     def rows(self, cases: Iterable[Case], *, summaries: bool = True) -> dict[str, Row]:
-        """Return the rows of the finished cases by key.
-
-        Parameters
-        ----------
-        cases : iterable of Case
-            Looked up by their keys.
-        summaries : bool
-            Not used: the numbers are in memory.
-        """
+        """Return the rows of the finished cases by key."""
         del summaries
         keys = dict.fromkeys(case.key for case in cases)
         return {key: self._known[key] for key in keys if key in self._known}

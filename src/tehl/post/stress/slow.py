@@ -135,15 +135,7 @@ class SlowStress:
         self.waves = 2.0 * unit / solid.conductivity * waves
 
     def stresses(self, depth: float, rows: slice = slice(None)) -> Array:
-        """Return the components of the stress on the wanted nodes, (6, ...) [Pa].
-
-        Parameters
-        ----------
-        depth : float
-            [m].
-        rows : slice
-            Of the wanted nodes, those that are needed.
-        """
+        """Return the components of the stress on the wanted nodes, (6, ...) [Pa]."""
         along = self.x.waves[None, :]
         if self.y is None:
             nothing = np.zeros((1, 1))

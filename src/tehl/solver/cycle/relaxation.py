@@ -173,19 +173,7 @@ class LineSmoother:
         self.relaxation, self.is_stiff = relaxation, relaxation.stiff
 
     def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
-        """Relax ``film.p`` in place.
-
-        Parameters
-        ----------
-        film : Film
-            Pressure, film and conductance of the level; ``p`` is overwritten.
-        stencil : Stencil
-            Weights of the Reynolds equation.
-        rhs : Array
-            Right-hand side of the level, (ny, nx).
-        flow : FlowTable
-            Slope of the conductance by pressure, for stiff settings only.
-        """
+        """Relax ``film.p`` in place."""
         if self.is_stiff:
             kernels.stiffen(film, stencil, flow, self.stiffness)
         is_held = is_long(stencil, touches=bool(self.workspace.touches))
@@ -205,19 +193,7 @@ class PointSmoother:
         self.relaxation, self.omega = relaxation, relaxation.point
 
     def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
-        """Relax ``film.p`` in place.
-
-        Parameters
-        ----------
-        film : Film
-            Pressure, film and conductance of the level; ``p`` is overwritten.
-        stencil : Stencil
-            Weights of the Reynolds equation.
-        rhs : Array
-            Right-hand side of the level, (ny, nx).
-        flow : FlowTable
-            Not used.
-        """
+        """Relax ``film.p`` in place."""
         del flow
         kernels.relax_points(film, stencil, rhs, self.point, self.omega)
 
