@@ -32,6 +32,17 @@ def no_pictures(monkeypatch):
     monkeypatch.setattr("tehl.report.page.CAPTIONS", {})
 
 
+@pytest.fixture
+def unrendered(monkeypatch):
+    """Leave out the pixels of the pictures of a report, which take most of its time."""
+
+    def write(picture, file, dpi):
+        del picture, dpi
+        file.write(b"\x89PNG\r\n\x1a\n")
+
+    monkeypatch.setattr("tehl.report.notebook.write_png", write)
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_collection():
     """Leave what is imported and collected out of the search for garbage: a tenth of the time."""

@@ -109,6 +109,7 @@ def test_a_thermal_run_has_sections_of_heat_and_traction(thermal, result):
     assert not any(word in cold for word in ("Traction", "Temperature", "ΔT"))
 
 
+@pytest.mark.usefixtures("unrendered")
 def test_pictures_of_heat_are_embedded(thermal):
     page = Page(report_text(thermal, dpi=30))
     assert len(page.sources) == 10
@@ -328,6 +329,7 @@ def test_the_film_without_heat_stands_beside_the_one_with_it(thermal, monkeypatc
     assert "Film with heat and without" not in report_text(thermal)
 
 
+@pytest.mark.usefixtures("unrendered")
 def test_a_rough_film_has_a_section_with_its_waves_and_pictures(rough, smooth, monkeypatch):
     effect = roughness_effect(rough, smooth)
     page = Page(report_text(rough, dpi=30, roughness=effect, smooth=smooth))

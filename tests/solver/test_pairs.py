@@ -157,6 +157,7 @@ def test_friction_in_time_is_that_of_film_and_solids(load: float):
     assert np.ptp(history.temperature_rise) < 0.01 * history.temperature_rise[0]
 
 
+@pytest.mark.usefixtures("unrendered")
 @pytest.mark.parametrize("other", [name for name in FEATURES if name != "boundary"])
 def test_each_physics_works_with_a_boundary_film(other: str):
     assert outcome((other, "boundary"), 65) == "works"

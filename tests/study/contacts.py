@@ -1,5 +1,7 @@
 """Small quick contacts for studies."""
 
+from functools import cache
+
 import pandas as pd
 
 from tehl.api.problem import ContactProblem
@@ -17,8 +19,12 @@ def problem(load: float = 5.0, speed: float = 10.0, **changes) -> ContactProblem
 
 
 def cases(count: int = 4, options: Options = QUICK) -> list[Case]:
-    loads = [5.0 + 0.25 * number for number in range(count)]
-    return [Case(f"M = {load:g}", problem(load), options, {"M": load}) for load in loads]
+    return [case(5.0 + 0.25 * number, options) for number in range(count)]
+
+
+@cache
+def case(load: float, options: Options) -> Case:
+    return Case(f"M = {load:g}", problem(load), options, {"M": load})
 
 
 def failing() -> Case:
