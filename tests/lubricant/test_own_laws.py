@@ -1,4 +1,4 @@
-"""Laws of packages that are installed beside tehl, each run in a process of its own."""
+"""Laws of packages that are installed beside tehl, in a process of their own."""
 
 import os
 import shutil
@@ -8,6 +8,10 @@ import tomllib
 from pathlib import Path
 
 import pytest
+
+import tehl
+from tehl import cli
+from tehl.base.errors import FileFormatError, InputError
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "own_law"
 TWINS = """
@@ -91,9 +95,9 @@ def install(folder: Path, module: str, text: str, laws: dict[str, str]) -> Path:
     return folder
 
 
-def ran(folder: Path, site: Path | None, *words: str) -> subprocess.CompletedProcess[str]:
-    """Run Python in a folder, with the packages of ``site`` or without any."""
-    path = os.pathsep.join(filter(None, (str(site or ""), os.environ.get("PYTHONPATH"))))
+def ran(folder: Path, site: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Run Python in a folder, with the packages of ``site``."""
+    path = os.pathsep.join(filter(None, (str(site), os.environ.get("PYTHONPATH"))))
     return subprocess.run(
         [sys.executable, *words],
         cwd=folder,
@@ -140,19 +144,24 @@ print(result.central_film_thickness)
     assert 1e-7 < float(film) < 1e-6
 
 
-def test_without_the_package_one_sentence_names_it(place):
-    shutil.copy(place / "film.nc", place / "sent.nc")
-    read = ran(place, None, "-c", "import tehl; tehl.load('sent.nc')")
+def test_without_the_package_one_sentence_names_it(place, monkeypatch, capsys):
+    """It is not installed for the process of the tests either."""
+    monkeypatch.chdir(place)
+    shutil.copy("film.nc", "sent.nc")
     sentence = (
         'sent.nc has lubricant.viscosity.law = "mcewen" of the package mcewen-law 1.2: install it '
         "to read this file"
     )
-    assert read.stderr.splitlines()[-1] == f"tehl.base.errors.FileFormatError: {sentence}"
-    drawn = ran(place, None, "-m", "tehl", "plot", "sent.nc", "-o", "pictures")
-    assert (drawn.returncode, drawn.stdout) == (2, "")
-    assert drawn.stderr.splitlines() == [f"tehl: {sentence}"]
-    solved = ran(place, None, "-m", "tehl", "explain", "case.toml")
-    assert 'lubricant.viscosity.law = "mcewen": unknown; known are roelands' in solved.stderr
+    with pytest.raises(FileFormatError) as caught:
+        tehl.load("sent.nc")
+    assert str(caught.value) == sentence
+    monkeypatch.setattr(sys, "argv", ["tehl", "plot", "sent.nc", "-o", "pictures"])
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    said = capsys.readouterr()
+    assert (end.value.code, said.out, said.err) == (2, "", f"tehl: {sentence}\n")
+    with pytest.raises(InputError, match='viscosity.law = "mcewen": unknown; known are roelands'):
+        tehl.read_case("case.toml")
 
 
 def test_a_copy_of_a_law_gives_its_bits_without_compiling_anything(place):
