@@ -113,6 +113,14 @@ def test_an_isothermal_film_makes_no_bar_of_heated_ones() -> None:
     assert comparable(traces) == [traces[0], traces[2]]
 
 
+def test_grids_that_differ_in_their_lines_alone_make_no_bar() -> None:
+    traces = [GridTrace(columns=columns) for columns in (65, 65, 129)]
+    assert comparable(traces[:2]) == traces[1:2]
+    assert comparable(traces) == traces[1:]
+    traces[0].columns = 33
+    assert comparable(traces) == traces
+
+
 @pytest.mark.parametrize(
     ("change", "bar"),
     [(0.02, MOST_EXPECTED * 0.006), (0.04, THIRD_CHANGE * 0.04), (0.06, THIRD_PART * 0.06)],

@@ -53,6 +53,23 @@ def test_a_smooth_piece_is_a_line_contact(kind, physics):
     assert heat[1] == pytest.approx(heat[0], rel=1e-6)
 
 
+@pytest.mark.parametrize("order", [2, 3])
+def test_the_bar_of_a_piece_contains_its_error_along_x(order):
+    """Its first grids have the same columns: with 65 the film of order 2 errs by 8 %."""
+    found = tehl.solve(piece("0.2 mm"), Options(wedge_order=order))
+    error = abs(found.film_scaled.central / LINE_FILM - 1.0)
+    assert error < found.errors.central < 0.03
+
+
+def test_a_rigid_piece_touches_dry_on_one_column_and_is_a_line_contact():
+    """Its domain is 160 half-widths long: 65 columns put one on them, whose gap is its mean."""
+    nearly_rigid = {"moes_load": 0.04}
+    line = tehl.solve(contact({"type": "line"} | nearly_rigid))
+    found = tehl.solve(piece("50 mm", kind=nearly_rigid))
+    film = found.film_scaled.central
+    assert abs(film / line.film_scaled.central - 1.0) < found.errors.central
+
+
 def test_a_film_over_one_period_is_that_over_two():
     one, two = (
         tehl.solve(

@@ -56,7 +56,10 @@ def dry_roller(grid: Grid, groups: Groups) -> tuple[Array, Array]:
         step = np.where(touching, rest + conjugate * square / before * step, 0.0)
         deformation.deflect(step, bent)
         _take_motions(bent, part, modes)
-        length = float((part * rest * step).sum() / (part * bent * step).sum())
+        work = float((part * bent * step).sum())
+        if not work > 0.0:  # one column of nodes touches, whose gap is its own mean
+            break
+        length = float((part * rest * step).sum()) / work
         last, p = p, np.maximum(p - length * step, 0.0)
         missed = inside & (p == 0.0) & (rest < 0.0)
         p[missed] -= length * rest[missed]

@@ -259,7 +259,7 @@ class FilmSolver(GridIteration):
             coarsest.set_state(*start)
             coarsest.update()
             self._discard(self.levels[:1])
-        self.traces.append(GridTrace())
+        self.traces.append(GridTrace(columns=coarsest.grid.nx))
         self.traces[0].note(*nodal_film(coarsest))
 
     def _start(self, coarse: Level, fine: Level) -> None:

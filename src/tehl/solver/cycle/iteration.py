@@ -101,6 +101,7 @@ class GridIteration:
             steady=method.steady,
             part=EXTRAPOLATED_PART if self.options.extrapolate else 1.0,
             coupled=self.coupling.state is not None,
+            columns=fine.grid.nx,
         )
         self.traces.append(trace)
         begins = len(levels) - 1 == self.roughness.first  # the first level with the heights

@@ -135,7 +135,8 @@ class GridTrace:
     accepted: where surfaces touch, single nodes change by more, and ``largest_change`` is that of
     the mean. A grid on which the iteration ``diverged`` is not compared with others. ``outputs``
     are the fields to extrapolate; then the iteration error may be ``part`` of what it may be
-    without. ``coupled`` says whether the film is heated or thins on this grid.
+    without. ``coupled`` says whether the film is heated or thins on this grid. ``columns`` are its nodes
+    along x, 0 if they do not matter.
     """
 
     central: Trace = field(default_factory=Trace)
@@ -153,6 +154,7 @@ class GridTrace:
     outputs: Outputs | None = None
     part: float = 1.0
     coupled: bool = False
+    columns: int = 0
 
     def __post_init__(self) -> None:
         self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / self.damping))

@@ -137,9 +137,13 @@ def _by_grids(
 def comparable(traces: list[GridTrace]) -> list[GridTrace]:
     """Return the grids that did not diverge, whose films make error bars, coarsest first.
 
-    They are the last two where the third last is isothermal and the last one is not.
+    They are the last two where the third last is isothermal and the last one is not. The first
+    grids of a narrow piece of a roller differ in their lines alone, so that their films agree
+    however long their cells are along x: of those the last one counts.
     """
     found = [trace for trace in traces if not trace.diverged]
+    alike = [k for k in range(1, len(found)) if 0 < found[k].columns == found[k - 1].columns]
+    found = found[max(alike, default=0) :]
     if len(found) > 2 and found[-3].coupled != found[-1].coupled:
         return found[-2:]
     return found
