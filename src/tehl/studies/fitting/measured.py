@@ -10,6 +10,8 @@ from tehl.api.results import Result
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
 from tehl.base.units import Length, PositiveNumber, Quantity, Share, quantity
+from tehl.estimate.film_formulas import likely_film
+from tehl.estimate.scaling import ScaledProblem
 from tehl.lubricant.fluid import oil_table
 from tehl.studies.contacts import (
     columns_and_rows,
@@ -71,6 +73,11 @@ KINDS = {
 """What may be measured, by name."""
 LARGEST = {"film": 1e-4, "traction": 1.0}
 """What is beyond any film [m] and traction [-]: units or columns are taken for others."""
+FASTEST = 1000.0
+"""Entrainment speed that no rig reaches [m/s]."""
+FAR_FILM = 100.0
+"""Ratio of a measured film to that of formulas, either way, beyond which a unit is wrong: a first
+alpha or viscosity that is ten times off changes films by five."""
 _NOISE = "noise"
 _WORDS = {word: kind for kind, one in KINDS.items() for word in one.words.split()}
 _WORDS |= {
@@ -194,7 +201,25 @@ def _point(
     problem = case_from_tables(tables, folder)[0]
     if problem.transient is not None or problem.has_passes:
         raise InputError("a fit is for steady contacts: leave out transient and passes")
+    _check_condition(problem, measured["film"][0] if "film" in measured else None)
     return Point(label, tables, folder, measured)
+
+
+def _check_condition(problem: ContactProblem, film: float | None) -> None:
+    """Raise if a rig has no such speed, or no oil such a film there: it would lead the fit."""
+    speed = problem.entrainment_speed
+    if not speed <= FASTEST:
+        raise InputError(
+            f"contact.entrainment_speed = {speed:g} m/s: more than {FASTEST:g} m/s; check the unit"
+        )
+    if film is None:
+        return
+    expected = likely_film(ScaledProblem.of(problem)).central_m
+    if not expected / FAR_FILM <= film <= expected * FAR_FILM:
+        raise InputError(
+            f"film = {1e9 * film:.4g} nm: formulas give {1e9 * expected:.3g} nm at {speed:.4g} m/s "
+            f"and {1e-9 * problem.hertz.pressure:.3g} GPa; check units of film, speed and load"
+        )
 
 
 def noise_of(kind: str, noise: str | float, value: float) -> float:
