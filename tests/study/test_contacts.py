@@ -12,6 +12,7 @@ from tehl.api.problem import case_from_tables, read_case
 from tehl.base.errors import InputError
 from tehl.cli import application
 from tehl.estimate.settled import settled
+from tehl.io.templates import template_text
 from tehl.studies import Store
 from tehl.studies.answers import answers, values_of
 from tehl.studies.case import Case
@@ -96,6 +97,15 @@ def test_spreadsheets_of_all_countries_give_the_same_contacts(tmp_path, template
     assert [one.load for one in problems] == pytest.approx([20.5, 30.5])
     assert [one.entrainment_speed for one in problems] == pytest.approx([1.0, 2.0])
     assert found.rows[0].cells[2] == "new"
+
+
+@pytest.mark.parametrize("head", ["load [N/mm],point", "load,point\nN/mm,", "w / (kN/m),point"])
+def test_a_load_per_length_is_that_of_a_line(tmp_path, head):
+    path, template = tmp_path / "list.csv", tmp_path / "line.toml"
+    path.write_text(head + "\n100,a\n250,b\n")
+    template.write_text(template_text("line"))
+    problems = [case.problem for case in read_contacts(path, template).cases]
+    assert [one.load for one in problems] == pytest.approx([1e5, 2.5e5])
 
 
 def test_a_row_that_states_another_key_removes_that_of_the_template(template):

@@ -180,6 +180,14 @@ class Quantity:
             raise ValueError(f"is in {self.unit} as a bare number; {self._expected}")
         return self._check(float(value))
 
+    def has_unit(self, text: str) -> bool:
+        """Whether ``text`` is a unit of this kind of number."""
+        try:
+            self._factor(text)
+        except ValueError:
+            return False
+        return True
+
     @property
     def is_share(self) -> bool:
         """Whether messages have it in per cent."""
@@ -250,7 +258,7 @@ class Quantity:
         if math.isinf(number) and not (self.flat and number > 0):
             raise ValueError(f"is not finite; {self._expected}")
         if self.unit == "K" and not number > 0:
-            raise ValueError(f"is below absolute zero; {self._expected}")
+            raise ValueError(f"is not above absolute zero; {self._expected}")
         if self.sign == "positive" and not number > 0:
             raise ValueError(f"must be positive; {self._expected}")
         if self.sign == "non-negative" and not number >= 0:

@@ -18,7 +18,15 @@ from tehl.base.lists import check_package, lines_of_sheet, numbered_lines, strip
 from tehl.io.case import from_name, plain_value, tables_of_text, toml_tables
 from tehl.io.templates import template_text
 from tehl.studies.case import Case
-from tehl.studies.headings import NO_WORDS, Column, are_units, check_columns, column_of, unit_of
+from tehl.studies.headings import (
+    NO_WORDS,
+    Column,
+    are_units,
+    by_unit,
+    check_columns,
+    column_of,
+    unit_of,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -205,6 +213,7 @@ def columns_and_rows(
             for one, unit in zip(columns, units, strict=True)
         ]
         body = body[1:]
+    columns = [by_unit(one) for one in columns]
     check_columns(columns, [line for _, line in body])
     if not body:
         raise InputError("has no contacts below its units")

@@ -3,13 +3,13 @@
 import difflib
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from tehl.api.problem import ContactProblem
 from tehl.base.errors import InputError
 from tehl.base.keys import key_paths
-from tehl.base.units import is_per_turn, is_unit
+from tehl.base.units import ForcePerLength, is_per_turn, is_unit, quantity
 from tehl.contact.options import Options
 from tehl.io.case import plain_value
 
@@ -96,6 +96,13 @@ def column_of(text: str, others: Mapping[str, str] = NO_WORDS) -> Column:
             raise InputError(f'the unit of the column "{text}" is not known: {unit}')
         word = ""
     return Column(text, key, "" if word in ("-", "1") else word)
+
+
+def by_unit(column: Column) -> Column:
+    """Return a column whose load per length has its key: people call that of a line a load too."""
+    if column.key == "contact.load" and quantity(ForcePerLength).has_unit(column.unit):
+        return replace(column, key="contact.load_per_length")
+    return column
 
 
 def unit_of(text: str) -> str:
