@@ -155,9 +155,18 @@ def test_the_tilt_and_its_bar_are_shown_and_stored(tmp_path):
     assert coarse.rolling.tilt == pytest.approx(found.rolling.tilt, rel=0.02)
 
 
-def test_explain_states_the_tilt_of_the_dry_contact():
+def test_explain_states_the_tilt_of_dry_slices():
     text = repr(crowned(tilting_moment="-0.5 N m").explain())
-    assert "mrad of the dry contact; that of the film follows from the moment -0.5 N m" in text
+    assert "mrad of dry slices; that of the film is smaller and follows from the moment -0.5" in text
+
+
+@pytest.mark.parametrize(("moment", "is_asked"), [(0.0, False), (4.0, False), (-9.0, True)])
+def test_explain_asks_about_a_roller_that_rests_on_its_sharp_end(moment, is_asked):
+    contact = {"type": "roller", "radius": "8 mm", "length": "10 mm", "load": "2 kN"}
+    contact |= {"entrainment_speed": "2 m/s", "tilting_moment": moment}
+    oil = {"lubricant": "mineral-oil", "surface_1": STEEL, "surface_2": STEEL}
+    text = repr(tehl.ContactProblem(contact=contact, **oil).explain())
+    assert ("of its length, up to its sharp end, at more than" in text) == is_asked
 
 
 @pytest.mark.parametrize(
