@@ -3,7 +3,7 @@
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar, get_args
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -274,9 +274,20 @@ def _pydantic_sentence(mistake: _Mistake) -> str:
         words = _not_a_table(mistake)
     elif mistake.error["type"] in _OUTSIDE:
         words = _limits(mistake) or words
+    elif mistake.error["type"] == "tuple_type" and _is_open_list(mistake):
+        words = "must be a list, in square brackets"
     for theirs, ours in _WORDING:
         words = re.sub(theirs, ours, words)
     return f"{mistake.stated}: {words}"
+
+
+def _is_open_list(mistake: _Mistake) -> bool:
+    """Whether the value of a key is a list of any length."""
+    field = field_at(mistake.models[-2], mistake.path[-1])
+    kinds = [] if field is None else [field.annotation]
+    for kind in kinds:  # grows
+        kinds += get_args(kind)
+    return Ellipsis in kinds
 
 
 def _not_a_table(mistake: _Mistake) -> str:

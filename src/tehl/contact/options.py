@@ -21,13 +21,16 @@ def _not_a_boolean(value: object) -> object:
 
 def _memory(value: object) -> object:
     """Reject what is not an amount of memory."""
-    unlimited = isinstance(value, float) and not math.isfinite(value)
-    known = not isinstance(value, str) or re.fullmatch(r"\s*\d*\.?\d+\s*[kMGT]i?B\s*", value)
-    if isinstance(value, bool) or unlimited or not known:
+    known = isinstance(value, int | float) and abs(value) < MOST_MEMORY  # not NaN
+    known = known or (isinstance(value, str) and _MEMORY.fullmatch(value) is not None)
+    if isinstance(value, bool) or not known:
         raise ValueError('is not an amount of memory, such as "2 GB"')
-    return value
+    return int(value) if isinstance(value, float) else value
 
 
+MOST_MEMORY = 1e18
+"""Bytes that no machine has."""
+_MEMORY = re.compile(r"\s*\d*\.?\d+\s*[kMGT]i?B\s*")
 NUMERICS = "numerics"
 """Table of a case that holds its options."""
 NO_BOOLEAN = BeforeValidator(_not_a_boolean)

@@ -40,7 +40,7 @@ MOLECULAR = 5e-9
 """Film below which the oil is not a continuum [m]."""
 STEEP_SLOPE = 0.1
 """Slope from which on Reynolds' equation does not hold."""
-LOADED_END, TOUCHING = 0.5, 0.5
+SHARP_END, TOUCHING = 0.5, 0.5
 """Load at an end of a roller over the largest along it, from which on its sharp end carries, and
 part of the length that touches below which the cycles do not converge then: 0.56 and 0.68 do, 0.44
 and 0.25 do not (dry slices)."""
@@ -237,7 +237,7 @@ def _about_ends(scaled: ScaledProblem) -> Iterator[str]:
         return
     shares = roller.share(np.linspace(-1.0, 1.0, SLICES))
     part, most = float((shares > 0.0).mean()), float(shares.max())
-    if part < TOUCHING and max(shares[0], shares[-1]) > LOADED_END * most:
+    if part < TOUCHING and max(shares[0], shares[-1]) > SHARP_END * most:
         pressure = hertz.pressure * math.sqrt(most) / 1e9
         yield (
             f"the roller touches on about {percentage(part)} of its length, up to its sharp end, "

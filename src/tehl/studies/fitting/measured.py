@@ -75,7 +75,7 @@ LARGEST = {"film": 1e-4, "traction": 1.0}
 """What is beyond any film [m] and traction [-]: units or columns are taken for others."""
 FASTEST = 1000.0
 """Entrainment speed that no rig reaches [m/s]."""
-FAR_FILM = 100.0
+UNLIKE = 100.0
 """Ratio of a measured film to that of formulas, either way, beyond which a unit is wrong: a first
 alpha or viscosity that is ten times off changes films by five."""
 _NOISE = "noise"
@@ -215,7 +215,7 @@ def _check_condition(problem: ContactProblem, film: float | None) -> None:
     if film is None:
         return
     expected = likely_film(ScaledProblem.of(problem)).central_m
-    if not expected / FAR_FILM <= film <= expected * FAR_FILM:
+    if not expected / UNLIKE <= film <= expected * UNLIKE:
         raise InputError(
             f"film = {1e9 * film:.4g} nm: formulas give {1e9 * expected:.3g} nm at {speed:.4g} m/s "
             f"and {1e-9 * problem.hertz.pressure:.3g} GPa; check units of film, speed and load"
