@@ -67,9 +67,9 @@ def peak(x: np.ndarray, values: np.ndarray) -> float:
     return float(x[k] + 0.5 * (x[1] - x[0]) * (below - above) / (below - 2.0 * top + above))
 
 
-def main() -> dict[float, dict[str, float]]:
+def main(points: int = 129) -> dict[float, dict[str, float]]:
     """Return the numbers of each passage, by slide-to-roll ratio."""
-    return {slide: numbers(followed(slide)) for slide in SLIDES}
+    return {slide: numbers(followed(slide, points)) for slide in SLIDES}
 
 
 if __name__ == "__main__":

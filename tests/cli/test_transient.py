@@ -113,7 +113,7 @@ temperature = "40 degC"
 frames = 3
 duration = "0.4 ms"
 [numerics]
-points = 65
+points = 49
 """
 
 

@@ -160,7 +160,7 @@ def test_without_the_package_one_sentence_names_it(place, monkeypatch, capsys):
         cli.main()
     said = capsys.readouterr()
     assert (end.value.code, said.out, said.err) == (2, "", f"tehl: {sentence}\n")
-    with pytest.raises(InputError, match='viscosity.law = "mcewen": unknown; known are roelands'):
+    with pytest.raises(InputError, match=r'viscosity\.law = "mcewen": unknown; known are roelands'):
         tehl.read_case("case.toml")
 
 

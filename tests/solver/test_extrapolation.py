@@ -1,8 +1,12 @@
 """Values extrapolated from the two finest grids: of higher order, and one with the fields."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
 from tehl.api.solvers import certify, solve
 from tehl.contact.options import Options
 from tehl.result.fields import Fields
@@ -35,6 +39,11 @@ def test_an_error_along_x_vanishes_on_grids_with_the_same_lines():
     assert extrapolated_field(fine, coarse) == pytest.approx(exact, abs=1e-14)
 
 
+@cache
+def fine_film(case: ContactProblem) -> Result:
+    return solve(case, Options(points=769, extrapolate=True))
+
+
 @pytest.mark.parametrize("order", [2, 3])
 @pytest.mark.parametrize(
     "case", [moes_contact(200.0, 10.0), pytest.param(heated_contact(0.5), marks=pytest.mark.slow)]
@@ -42,7 +51,7 @@ def test_an_error_along_x_vanishes_on_grids_with_the_same_lines():
 def test_an_eighth_of_the_nodes_gives_the_film_of_a_fine_grid(case, order):
     higher = Options(points=193, extrapolate=True, wedge_order=order)
     coarse, plain = (solve(case, one) for one in (higher, Options(points=193)))
-    fine = solve(case, Options(points=769, extrapolate=True))
+    fine = fine_film(case)
     assert coarse.errors.extrapolated or order == 3
     assert not plain.errors.extrapolated
     for name in ("central", "minimum"):

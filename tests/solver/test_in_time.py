@@ -266,7 +266,7 @@ def heated(end: float, right: float, **transient: object) -> TransientResult:
     }
     tables |= {"duration": end * unit, "frames": 0}
     case = ContactProblem.model_validate(ROLLER | {"transient": tables})
-    return solve_transient(case, Options(points=129, domain=Domain(x=(-3.5, right))))
+    return solve_transient(case, Options(points=97, domain=Domain(x=(-3.5, right))))
 
 
 def test_heat_of_a_speed_that_hardly_changes_is_that_of_a_constant_one():

@@ -18,6 +18,7 @@ from tehl.plots.oil import oil_map
 from tehl.post.layer import LayerDecay, check_layer, layer_decay
 from tehl.post.starvation import meniscus, oil_flux
 from tehl.solver import steady
+from tehl.solver.physics.passes import PassState
 from tehl.solver.transient.step import Stepper
 from tests.cases import ball_tables
 from tests.reference import DOMAIN, moes_contact, read
@@ -277,10 +278,16 @@ def test_each_section_conserves_oil_in_time(monkeypatch):
 
 
 @pytest.fixture(scope="module")
-def passed() -> Result:
+def states() -> list[PassState]:
+    """Return what is kept after each pass, filled by `passed`."""
+    return []
+
+
+@pytest.fixture(scope="module")
+def passed(states: list[PassState]) -> Result:
     """Return the last of some passes."""
     problem = starved(50.0, 8.0, ratio=1.0, passes=24, track=0.25)
-    return solve_passes(problem, Options(points=97))
+    return solve_passes(problem, Options(points=97), keep=states.append)
 
 
 def test_the_film_decays_from_pass_to_pass_by_what_flows_aside(passed):
@@ -293,11 +300,8 @@ def test_the_film_decays_from_pass_to_pass_by_what_flows_aside(passed):
     assert -0.55 < slope < -0.3  # between gamma = 2, severe starvation, and 3
 
 
-def test_passes_continue_where_they_were_stopped(passed):
-    states = []
-    problem, options = passed.problem, Options(points=97)
-    solve_passes(problem, options, keep=states.append)
-    again = solve_passes(problem, options, resume=states[9])
+def test_passes_continue_where_they_were_stopped(passed, states):
+    again = solve_passes(passed.problem, Options(points=97), resume=states[9])
     for name in ("film_central", "entering", "time"):
         np.testing.assert_array_equal(getattr(again.passes, name), getattr(passed.passes, name))
 
