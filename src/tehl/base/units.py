@@ -65,8 +65,6 @@ _CELSIUS = ("degC", "°C", "C")
 _ZERO_CELSIUS = 273.15
 _ANGLE_UNITS = ("rad", "mrad", "deg", "°")
 
-LONGEST_UNIT = 40
-"""Characters of a unit."""
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _TURNING = re.compile(r"(?:rpm|RPM|r/min|rev/min|U/min|1/min|min\^?-1|min⁻¹)(?![\w/^*])")
@@ -231,7 +229,7 @@ class Quantity:
 
     def _factor(self, unit: str) -> float:
         """Return the factor from ``unit`` to SI."""
-        if len(unit) > LONGEST_UNIT:
+        if len(unit) > 40:  # characters of a unit
             raise ValueError(f"has an unreadable unit; {self._expected}")
         if re.match(r",\d", unit):
             raise ValueError(f"has a comma in its number, write a point; {self._expected}")

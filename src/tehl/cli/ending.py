@@ -26,8 +26,6 @@ _WrongCommandLine: Any = typer.BadParameter.__mro__[2]
 """Base of the errors of a wrong command line; typer does not export it."""
 EXPECTED = (_WrongCommandLine, TehlError, MemoryError, OSError, ModuleNotFoundError)
 _SIGNALS = ("SIGTERM", "SIGHUP")
-RESEND_SECONDS = 0.05
-"""Seconds after which a signal that a destructor has received is sent again."""
 _LONGEST_MESSAGE = 300
 """Characters of a message about the command line."""
 
@@ -124,7 +122,8 @@ def ending() -> Iterator[None]:
 def _raise_again(received: list[int], hook: Callable[[Any], object], unraisable: Any) -> None:
     """Signal again if a destructor, in which Python ignores exceptions, has received a signal."""
     if received and isinstance(unraisable.exc_value, SystemExit):
-        threading.Timer(RESEND_SECONDS, os.kill, (os.getpid(), received[-1])).start()
+        # seconds after which a signal that a destructor has received is sent again
+        threading.Timer(0.05, os.kill, (os.getpid(), received[-1])).start()
     else:
         hook(unraisable)
 

@@ -10,8 +10,6 @@ import typer
 
 _LABEL = re.compile(r"\s*\S.*?\s{2,}|\s*- ")
 """What stands before the text of a line: a label with two spaces or more behind it, or a dash."""
-_INDENT = 2
-"""Further indent of the lines that follow one without a label."""
 _WIDEST_LABEL = 0.5
 """Widest label under which the text is not continued, over the width."""
 
@@ -37,7 +35,8 @@ def _wrapped(line: str, width: int, column: int) -> str:
     if len(line) <= width:
         return line
     label = _LABEL.match(line)
-    indent = len(line) - len(line.lstrip()) + _INDENT
+    # further indent of the lines that follow one without a label
+    indent = len(line) - len(line.lstrip()) + 2
     if column <= _WIDEST_LABEL * width and line[:column].strip() and line[column - 1] == " ":
         indent = column
     elif label is not None and label.end() <= _WIDEST_LABEL * width:

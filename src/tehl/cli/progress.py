@@ -56,14 +56,10 @@ _STEP: Columns = {
 }
 _PLAIN_LINES, _LIVE_STEPS = 20, 10
 """Of a transient run: plain lines, and steps in the live view."""
-_BAR_TEXT_WIDTH = 47
-"""Characters beside a bar of 20 and the time left, in a line of 80."""
 _SILENT = 2.0
 """Seconds after which a live view that does not change shows the time."""
 _LINE_SECONDS = 10.0
 """Seconds between two plain lines of a study."""
-_LEAST_FINISHED = 3
-"""Finished cases that show how long the others take."""
 MOST_NAMED_CASES = 20
 """Failed cases that are named."""
 
@@ -132,7 +128,8 @@ def compile_kernels(*, coupled: bool) -> None:
         typer.echo("compiling the kernels once, which takes 10 to 60 s", err=True)
         warmup.warm_up(coupled=coupled)
         return
-    beside = Column(no_wrap=True, overflow="ellipsis", max_width=_BAR_TEXT_WIDTH)
+    # characters beside a bar of 20 and the time left, in a line of 80
+    beside = Column(no_wrap=True, overflow="ellipsis", max_width=47)
     words = TextColumn("{task.description}", table_column=beside)
     columns = (BarColumn(bar_width=20), _CountDown(), words)
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
@@ -362,7 +359,7 @@ class StudyProgress(_Shown):
         if self.done:
             rate = self.done / max(self._clock() - self._start, 1e-9)
             text += f", {rate:.3g} per second"
-        if self.done >= _LEAST_FINISHED:
+        if self.done >= runner.LEAST_FINISHED:
             pace = (self._clock() - self._start) / self._worked
             text += f", {duration(pace * max(self._work - self._worked, 0.0))} left"
         return f"{text}, {self.failed} failed" if self.failed else text

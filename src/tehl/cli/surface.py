@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from tehl.roughness import Map
     from tehl.roughness.preview import Mesh, Preview
 
-_DOMAIN = 6.0
-"""Length of the usual domain in half-widths."""
 _ROUGHNESS = ("Sq_m", "Sa_m", "Sz_m", "Ssk", "Sku", "Sdq")
 _INFINITE_LENGTH = 1e300
 """Lengths beyond are infinite [m]."""
@@ -118,7 +116,7 @@ def _mesh(contact: Path | None, half_width: str | None, points: int | None) -> "
     except ValueError as error:
         raise InputError(f"--half-width = {half_width!r}: {error}") from None
     count = points or 257
-    spacing = _DOMAIN * width / (count - 1)
+    spacing = 6.0 * width / (count - 1)  # the usual domain has six half-widths
     return previews.Mesh(spacing=(spacing,) * 2, half_widths=(width, width), points=(count, count))
 
 

@@ -6,9 +6,6 @@ from dataclasses import dataclass
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
 
-ROUNDING_IN_QUARTER_TURNS = 1e-12
-"""Of an angle in quarter turns: "90 deg" is read to 15 digits."""
-
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Radii:
@@ -95,7 +92,8 @@ def direction(angle: float) -> tuple[float, float]:
     """Return cosine and sine of an angle [rad]; those of quarter turns, to rounding, are exact."""
     quarters = angle / (0.5 * math.pi)
     nearest = round(quarters)
-    if abs(quarters - nearest) < ROUNDING_IN_QUARTER_TURNS:
+    # "90 deg" is read to 15 digits
+    if abs(quarters - nearest) < 1e-12:
         return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[nearest % 4]
     return math.cos(angle), math.sin(angle)
 

@@ -3,9 +3,6 @@
 import re
 from pathlib import Path
 
-LARGEST_TABLE = 1_000_000
-"""Characters that are read."""
-
 
 def read_columns(
     path: Path, names: tuple[str, str], header: str
@@ -27,7 +24,7 @@ def read_columns(
         If it is not a file of two columns of numbers.
     """
     try:
-        text = path.read_text(encoding="utf-8-sig")[:LARGEST_TABLE]
+        text = path.read_text(encoding="utf-8-sig")[:1_000_000]  # characters that are read
     except (OSError, UnicodeDecodeError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "not a text file"
         raise ValueError(f"cannot be read ({reason})") from None

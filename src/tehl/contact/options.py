@@ -35,7 +35,9 @@ NUMERICS = "numerics"
 """Table of a case that holds its options."""
 NO_BOOLEAN = BeforeValidator(_not_a_boolean)
 """Last in an annotation: the JSON schema has the limits of the number inside."""
-Nodes = Annotated[int, Field(ge=17, le=16385), NO_BOOLEAN]
+MOST_NODES_PER_AXIS = 16385
+"""Most nodes along one direction."""
+Nodes = Annotated[int, Field(ge=17, le=MOST_NODES_PER_AXIS), NO_BOOLEAN]
 Sweeps = Annotated[int, Field(ge=0, le=10), NO_BOOLEAN]
 Interval = tuple[Annotated[float, NO_BOOLEAN], Annotated[float, NO_BOOLEAN]]
 USUAL_ERROR, USUAL_PLAIN_ERROR = 0.01, 0.02

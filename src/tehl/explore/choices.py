@@ -19,8 +19,6 @@ from tehl.explore.knobs import Choice, Settings
 from tehl.lubricant.fluid import OILS
 
 OWN = "own values"
-ROLLER_WIDTHS = 15.0
-"""Length of a roller that replaces another contact, over the width of the line contact."""
 _LAWS: dict[str, tuple[str, Any]] = {
     "newtonian": ("Newtonian", {"law": "newtonian"}),
     "eyring": ("Eyring", {"law": "eyring", "stress": "5 MPa"}),
@@ -115,7 +113,8 @@ def kind(state: State) -> Choice:
     turned = ("radius_x", "radius_y", "entrainment_angle", "spin_1", "spin_2")
     line = point | {f"contact.{key}": None for key in turned}
     line |= {"contact.radius": radius} if contact.radii is not None else {}
-    roller: Settings = {"contact.length": f"{1e3 * ROLLER_WIDTHS * width:.3g} mm"}
+    # as usual for rollers: 15 times the width of the line contact
+    roller: Settings = {"contact.length": f"{1e3 * 15.0 * width:.3g} mm"}
     roller |= {"contact.profile": {"shape": "logarithmic"}}
     options = {
         "point": ("ball or ellipse", point | {"contact.type": None}),

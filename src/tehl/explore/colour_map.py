@@ -27,8 +27,6 @@ _LEFT_MARGIN, _RIGHT_MARGIN, _TOP_MARGIN, _BOTTOM_MARGIN, _BARE_MARGIN = (
 )
 """Margins in pixels; the last one at the right without a colour bar."""
 _X_LABEL = "x along entrainment [µm]"
-_WIDEST_IMAGE = 400.0
-"""Pixels of an image; the browser draws it wider, smoothly."""
 _NUMBERS = count()
 """For names of gradients: one in a hidden drawing has no effect on another."""
 _CLEAR = 255
@@ -224,7 +222,7 @@ def _frame(
 def _resampled(field: Array, axes: tuple[Array, Array], frame: Frame) -> Array:
     """Return a field at the pixels of its image, from the top down."""
     *_, width, height = frame.place
-    fewer = max(1.0, width / _WIDEST_IMAGE)
+    fewer = max(1.0, width / 400.0)  # the browser draws it wider, smoothly
     columns, rows = max(2, round(width / fewer)), max(2, round(height / fewer))
     along = np.linspace(frame.x.low, frame.x.high, columns)
     down = np.linspace(frame.y.high, frame.y.low, rows)

@@ -33,8 +33,6 @@ else:
 
 QUICK_NODES, MIDDLE_NODES = 65, 129
 """Nodes per direction while a slider moves, and on the way to the accuracy of the case."""
-_KEPT_RESULTS = 6
-"""Results kept for pictures and files."""
 
 Send = Callable[[Any], None]
 
@@ -212,7 +210,7 @@ class Desk:
                 found = error.result
             self.kept[key] = found
         self.kept.move_to_end(key)
-        while len(self.kept) > _KEPT_RESULTS:
+        while len(self.kept) > 6:  # for pictures and files
             self.kept.popitem(last=False)
         return self.kept[key]
 

@@ -15,9 +15,6 @@ from tehl.explore.tab import Tab
 from tehl.explore.tasks import Movie, Transient
 from tehl.explore.worker import Solver
 
-_PERIOD = 0.12
-"""Seconds between two frames."""
-
 
 class Player:
     """A bar with a slider and a button that moves it through the frames of a movie.
@@ -36,7 +33,7 @@ class Player:
             self.slider.props('aria-label="time"').classes("grow")
             self.slider.on_value_change(draw)
             self.clock = ui.label("").classes("clock")
-        self.timer = ui.timer(_PERIOD, self._next, active=False)
+        self.timer = ui.timer(0.12, self._next, active=False)  # seconds between two frames
 
     @property
     def frame(self) -> int:

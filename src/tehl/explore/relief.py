@@ -15,9 +15,6 @@ _RAYS, _RINGS = 121, 48
 """Rays around the centre on which the film is sampled, and places on each."""
 _SEARCHED = 200
 """Places along a ray among which the rim is found."""
-_SHADES = 12
-_NARROW_PICTURE = 560.0
-"""Pixels of a picture in which the axes need more room."""
 
 
 def relief_figure(maps: Maps, limits: Limits, size: tuple[float, float]) -> dict[str, Any]:
@@ -40,7 +37,7 @@ def relief_figure(maps: Maps, limits: Limits, size: tuple[float, float]) -> dict
         "colorbar": {"title": {"text": "film [nm]"}, "thickness": 13, "len": 0.7},
         "hovertemplate": "x %{x:.0f} µm, y %{y:.0f} µm, h %{z:.4g} nm<extra></extra>",
     }
-    away = 1.15 if size[0] > _NARROW_PICTURE else 1.4
+    away = 1.15 if size[0] > 560.0 else 1.4  # pixels; axes need room in a narrow one
     scene = {
         "xaxis": {"title": {"text": "x [µm]"}, **axis},
         "yaxis": {"title": {"text": "y [µm]"}, **axis},
@@ -99,6 +96,6 @@ def _packed(values: Array) -> dict[str, Any]:
 
 def _log_colours(limits: Limits) -> list[list[Any]]:
     """Return the colours of the map, which are logarithmic, over a linear scale."""
-    ratio, parts = limits.high / limits.low, np.linspace(0.0, 1.0, _SHADES + 1).tolist()
+    ratio, parts = limits.high / limits.low, np.linspace(0.0, 1.0, 13).tolist()
     places = [(ratio**part - 1.0) / (ratio - 1.0) for part in parts]
     return [[at, to_hex(colormaps["viridis"](k))] for at, k in zip(places, parts, strict=True)]

@@ -36,12 +36,6 @@ TOO_LONG = (
     f"This link is longer than {LONGEST_ADDRESS // 1000} kB, and may have been cut on its way: "
     "open the case as a file on the page."
 )
-_LONGEST_LINE = 2_100_000
-"""Bytes of a request line that are read, to reply to it: browsers send up to two million."""
-_UPLOAD_MARGIN = 100_000
-"""Bytes around the file in the request of an upload."""
-_QUERY_MARGIN = 500
-"""Bytes beside the case in the query of an address."""
 _POLICY = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
@@ -77,7 +71,8 @@ class Guard:
         if not self._may_pass(headers, given):
             await _refuse(scope, receive, send, REFUSED, 403)
             return
-        if len(scope["query_string"]) > LONGEST_ADDRESS + _QUERY_MARGIN:
+        # bytes beside the case
+        if len(scope["query_string"]) > LONGEST_ADDRESS + 500:
             await _refuse(scope, receive, send, TOO_LONG, 414)
             return
         if scope["type"] == "http" and not _is_small(scope["method"], headers):
@@ -113,7 +108,8 @@ def _is_small(method: str, headers: dict[str, str]) -> bool:
     if method in ("GET", "HEAD", "OPTIONS"):
         return True
     length = headers.get("content-length", "")
-    return length.isdecimal() and int(length) <= LARGEST_UPLOAD + _UPLOAD_MARGIN
+    # bytes around the file
+    return length.isdecimal() and int(length) <= LARGEST_UPLOAD + 100_000
 
 
 async def _refuse(scope: Any, receive: Any, send: Any, words: str, code: int) -> None:
@@ -172,7 +168,8 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
             uvicorn_logging_level="error",
             timeout_graceful_shutdown=1,
             http="h11",  # the other parser has no reply to a long line but "Invalid HTTP request"
-            h11_max_incomplete_event_size=_LONGEST_LINE,
+            # bytes of a request line, to reply to it: browsers send up to two million
+            h11_max_incomplete_event_size=2_100_000,
         )
 
 

@@ -16,8 +16,6 @@ from tehl.report.explain import Explanation
 from tehl.result.fields import FilmDynamics
 from tehl.result.solution import Settings
 
-_SECTION_POINTS = 41
-"""Places across the film of a temperature section."""
 _INTERFEROGRAM_PIXELS = 480
 """Pixels along x of an interferogram."""
 
@@ -257,7 +255,8 @@ def _section(result: Result) -> Section | None:
     rise = np.nan_to_num(heat.temperature[:, row, columns] - inlet)
     return Section(
         x=result.x[columns] * 1e6,
-        rise=_single(CubicSpline(heat.zeta, rise, axis=0)(np.linspace(0.0, 1.0, _SECTION_POINTS))),
+        # places across the film of a temperature section
+        rise=_single(CubicSpline(heat.zeta, rise, axis=0)(np.linspace(0.0, 1.0, 41))),
         inlet=inlet - 273.15,
     )
 

@@ -10,17 +10,13 @@ from tehl.api.results import Result
 from tehl.base.errors import TehlError
 from tehl.explore.jobs import End, Failure, Note, steady
 from tehl.explore.numbers import Number, numbers
-from tehl.explore.worker import Queue, Request
+from tehl.explore.worker import GRACE_SECONDS, Queue, Request
 from tehl.io.case import changed
 from tehl.report.explain import explain
 from tehl.studies.case import Case, Row
 from tehl.studies.engines import Pool, Stopped
 from tehl.studies.runner import StudyMonitor, run
 from tehl.studies.store import Memory
-
-_MOST_WORKERS = 4
-_GRACE_SECONDS = 3.0
-"""Seconds for a stopped sweep to end."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +118,7 @@ class Sweeps(Queue):
         if self._pool is not None and self._pool.is_stopped:
             self._drop_pool()
         if self._pool is None:
-            self._pool = _Pool(min(_MOST_WORKERS, max(1, (os.cpu_count() or 1) - 1)))
+            self._pool = _Pool(min(4, max(1, (os.cpu_count() or 1) - 1)))
         return self._pool
 
     def _drop_pool(self) -> None:
@@ -135,7 +131,7 @@ class Sweeps(Queue):
             if self._running is not None:
                 self._stop(self._running)
         if self._thread.is_alive():
-            self._thread.join(_GRACE_SECONDS)
+            self._thread.join(GRACE_SECONDS)
         self._drop_pool()
 
 

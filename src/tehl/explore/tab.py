@@ -37,9 +37,6 @@ ON_REQUEST = {
     "dynamics": "stiffness and damping",
 }
 """Views that are computed when they are shown."""
-_UNDONE = 50
-_LEAST_COLOUR_RANGE = 1.1
-"""Largest film with a colour over the central one, at least."""
 
 Listener = Callable[[str], None]
 
@@ -176,7 +173,7 @@ class Tab:
         """Keep the present case for undo; a faulty one is not worth it."""
         self._redo.clear()
         if self._is_valid and self._undo[-1:] != [self.case.text]:
-            self._undo = [*self._undo[-_UNDONE:], self.case.text]
+            self._undo = [*self._undo[-50:], self.case.text]  # what can be undone
 
     def _edit(
         self, path: str, change: Callable[[CaseText], None], *, rebuild: bool = False
@@ -370,7 +367,8 @@ class Tab:
             )
             before, central = self.limits.get("film"), shown.maps.central
             # a film above the range would have no colour
-            if before is not None and before.high < _LEAST_COLOUR_RANGE * central:
+            # the colours reach beyond the central film
+            if before is not None and before.high < 1.1 * central:
                 self.limits["film"] = before.joined(wanted["film"])
             wanted |= {key: value for key, value in self.limits.items() if key in wanted}
             wanted["lines"] = film, pressure  # lines stay in their frame

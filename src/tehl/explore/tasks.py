@@ -31,9 +31,6 @@ else:
     plots = lazy("tehl.plots")
     pages = lazy("tehl.report.page")
 
-_PREVIEW_POINTS = 220
-"""Points of a preview along an axis."""
-
 
 @dataclass(frozen=True, slots=True)
 class Movie:
@@ -170,7 +167,8 @@ class Look:
         del desk
         found = preview(Map(**self.settings))
         seen = view(found)
-        rows, columns = (max(1, count // _PREVIEW_POINTS) for count in seen.values.shape)
+        # points of a preview along an axis
+        rows, columns = (max(1, count // 220) for count in seen.values.shape)
         values = np.ascontiguousarray(seen.values[::rows, ::columns]) * 1e9
         (left, right), (bottom, top) = seen.window
         numbers_of = found.statistics

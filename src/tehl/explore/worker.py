@@ -16,8 +16,8 @@ DIED = (
     "The process that solves has ended, perhaps for lack of memory. A new one has been started: "
     "change a value or solve again."
 )
-_GRACE_SECONDS = 3.0
-"""Seconds for a cancelled job to end before its process is killed."""
+GRACE_SECONDS = 3.0
+"""Seconds for a cancelled job to end before its process is killed, and for a stopped sweep."""
 _COMPILING = "compiling"
 
 Receive = Callable[[Any], None]
@@ -146,7 +146,7 @@ class Solver(Queue):
         with suppress(OSError, ValueError):
             worker.connection.send(None)
         self._loop.call_soon_threadsafe(
-            lambda: self._loop.call_later(_GRACE_SECONDS, self._kill, request, worker)
+            lambda: self._loop.call_later(GRACE_SECONDS, self._kill, request, worker)
         )
 
     def _kill(self, request: Request, worker: WorkerProcess) -> None:
@@ -188,7 +188,7 @@ class Solver(Queue):
                 if isinstance(message, End):
                     return
         except (EOFError, OSError):
-            worker.process.join(_GRACE_SECONDS)  # the connection may end before the process
+            worker.process.join(GRACE_SECONDS)  # the connection may end before the process
             if not self._closed:
                 self.pass_on(request, Failure(DIED, again=True))
                 self.pass_on(request, End())

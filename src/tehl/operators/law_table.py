@@ -12,15 +12,15 @@ from functools import lru_cache
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.contact.problem import COLDEST_TEMPERATURE
 from tehl.estimate.scaling import Scales
 from tehl.kernels.energy.records import ETA_TERMS, RHO_TERMS, Laws
 from tehl.lubricant import Lubricant
+from tehl.lubricant.roelands import PER_ROELANDS_PRESSURE
+from tehl.operators.flow import LARGEST_PRESSURE
 
-PER_PRESSURE = 5.1e-9
-LARGEST_PRESSURE = 8.0
 ROWS = 96
 KELVIN_BELOW_INLET, KELVIN_ABOVE_INLET = 60.0, 700.0
-COLDEST_TEMPERATURE = 200.0
 POLE = -60.0
 """Pole of the variable 1/(T - POLE) [K]: accurate for laws in 1/T and in T."""
 RISE = 400.0
@@ -50,7 +50,7 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
         Units of pressure, viscosity and density, and the inlet temperature: the table reaches
         from 60 K below to 700 K above it and up to 8 p_h.
     """
-    per_scale = PER_PRESSURE * scales.hertz_pressure
+    per_scale = PER_ROELANDS_PRESSURE * scales.hertz_pressure
     rows = np.linspace(0.0, np.log1p(per_scale * LARGEST_PRESSURE), ROWS)
     coldest = max(scales.temperature - KELVIN_BELOW_INLET, COLDEST_TEMPERATURE)
     hottest = scales.temperature + KELVIN_ABOVE_INLET
@@ -59,14 +59,14 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
 
     def ln_eta(row: Array, t: Array) -> Array:
         pressure, temperature = np.broadcast_arrays(
-            np.expm1(row) / PER_PRESSURE, POLE + 1.0 / (middle + half * t)
+            np.expm1(row) / PER_ROELANDS_PRESSURE, POLE + 1.0 / (middle + half * t)
         )
         eta = lubricant.viscosity.viscosity(pressure, temperature) / scales.viscosity
         return np.minimum(np.log(np.maximum(eta, 1e-300)), SOLID)
 
     def rho(row: Array, t: Array) -> Array:
         pressure, temperature = np.broadcast_arrays(
-            np.expm1(row) / PER_PRESSURE, scales.temperature + RISE * t
+            np.expm1(row) / PER_ROELANDS_PRESSURE, scales.temperature + RISE * t
         )
         return lubricant.density.density(pressure, temperature) / scales.density
 

@@ -9,11 +9,9 @@ from matplotlib.patheffects import AbstractPathEffect, withStroke
 from tehl.base.typing import Array
 from tehl.result.solution import Solution
 
-MICRO = 1e6
+MICRO, NANO = 1e6, 1e9
 ARROWS = 5
 """Velocities along each axis of a map of surfaces that spin."""
-_ARROW_PART = 0.5
-"""Length of the longest arrow over the distance of arrows along x."""
 
 
 def entrainment_arrow(axes: Axes) -> None:
@@ -79,6 +77,7 @@ def _arrow_places(axes: Axes) -> tuple[Array, Array]:
 def _arrows(axes: Axes, field: tuple[Array, Array], colour: str) -> None:
     fastest = float(np.hypot(*field).max()) or 1.0
     style: dict[str, Any] = {"color": colour, "width": 0.003, "headwidth": 4.0, "zorder": 4}
-    style |= {"angles": "xy", "pivot": "mid", "scale": fastest * ARROWS / _ARROW_PART}
+    # length of the longest arrow over the distance of arrows along x
+    style |= {"angles": "xy", "pivot": "mid", "scale": fastest * ARROWS / 0.5}
     arrows = axes.quiver(*_arrow_places(axes), *field, **style)
     arrows.set_path_effects(outline("0.3", 0.9))

@@ -18,8 +18,6 @@ _CURVES = (
     ("load_error", "load error", "^-", GREEN),
 )
 _HEAT_CURVE = ("temperature_change", "change of T per cycle, right", "D-", "0.35")
-_LABELLED_PART = 0.09
-"""Part of all cycles from which on a grid has room for its number of nodes above."""
 
 
 def residual_history(
@@ -88,6 +86,7 @@ def _separate_grids(axes: Axes, grids: list[tuple[int, int]]) -> None:
     for start, end in pairwise([*starts, len(grids)]):
         if start:
             axes.axvline(start + 0.5, color="0.6", lw=0.8, ls=":")
-        if end - start >= _LABELLED_PART * len(grids) or len(starts) == 1:
+        # there is room for the number of nodes above
+        if end - start >= 0.09 * len(grids) or len(starts) == 1:
             place, nodes = (start + 0.6, 1.0), "{}×{}".format(*grids[start])
             axes.annotate(nodes, place, xycoords=("data", "axes fraction"), va="bottom", fontsize=7)

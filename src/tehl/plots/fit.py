@@ -8,6 +8,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
+from tehl.plots.arrows import NANO
 from tehl.plots.frame import BLUE, GREEN, ORANGE, PLAIN, Picture
 
 if TYPE_CHECKING:
@@ -17,9 +18,7 @@ _STEPS = {"u_m [m/s]": 0.1, "SRR": 0.02, "p_h [GPa]": 0.05, "T [°C]": 3.0}
 """Differences of a condition that make another curve."""
 _LOGARITHMIC = ("u_m [m/s]",)
 _LABELS = {"film": "central film [nm]", "traction": "traction [-]"}
-_NANO = 1e9
 _COLOURS = (BLUE, ORANGE, GREEN, "#7b3fa0", "#555555")
-_MOST_GROUPS = 12
 
 
 def oil_fit(table: "pd.DataFrame") -> Picture:
@@ -48,7 +47,7 @@ def oil_fit(table: "pd.DataFrame") -> Picture:
 
 def _draw(upper: Axes, lower: Axes, rows: "pd.DataFrame", kind: str) -> None:
     across = _across(rows, kind)
-    scale = 1.0 if kind == "traction" else _NANO
+    scale = 1.0 if kind == "traction" else NANO
     steps = {name: step for name, step in _STEPS.items() if name != across}
     clusters = [_clusters(rows[name].to_numpy(), step) for name, step in steps.items()]
     keys = list(zip(*clusters, strict=True))
@@ -64,7 +63,7 @@ def _draw(upper: Axes, lower: Axes, rows: "pd.DataFrame", kind: str) -> None:
             *(x, scale * chosen["measured"], scale * chosen["noise"]),
             **look | {"color": colour},
         )
-        named = label if number < _MOST_GROUPS else ""
+        named = label if number < 12 else ""  # as the legend has room
         upper.plot(x, scale * chosen["fitted"], color=colour, lw=1.3, label=named or None)
         lower.plot(x, chosen["residual"], color=colour, marker="o", ms=3.0, ls="none")
     lower.axhspan(-2.0, 2.0, color="0.92", zorder=0)

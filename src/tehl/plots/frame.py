@@ -37,11 +37,6 @@ MAP: dict[str, Any] = {"shading": "gouraud", "rasterized": True}
 PLAIN: dict[str, Any] = {"fontsize": 8, "frameon": False}
 """Style of a small legend."""
 _ALARM: dict[str, Any] = {"color": "white", "backgroundcolor": "#b3001b", "weight": "bold"}
-_LONGEST_SIDE = 5.8
-_SLENDER_PICTURE = 6.0
-_END = 0.5
-"""Distance from the ends of a roller within which its pressure may have no limit, in half-widths.
-"""
 _DRAWN = 1.6
 """Largest height over width, or width over height, of a map as drawn."""
 
@@ -200,7 +195,7 @@ def map_axes(
 def _map_size(result: Solution) -> tuple[float, float]:
     """Return width and height of the figure of a map [inch]."""
     ratio = shape(result)
-    longest = 4.9 if 0.5 < ratio < 2.0 else _LONGEST_SIDE
+    longest = 4.9 if 0.5 < ratio < 2.0 else 5.8  # [inch]
     width, height = (longest, longest * ratio) if ratio < 1 else (longest / ratio, longest)
     return max(width + 1.8, 5.6), max(height + 1.6, 3.4)
 
@@ -227,7 +222,7 @@ def window(result: Solution) -> tuple[Span, Span]:
         WINDOW, (result.scaled.x, result.scaled.y), (1.0 / ratio, ratio), strict=True
     ):
         tips = 1.0 / np.sqrt(max(slender, 1.0))
-        sides = max(1.0, 1.0 / (_SLENDER_PICTURE * slender))
+        sides = max(1.0, 1.0 / (6.0 * slender))
         low, high = ((end - np.sign(end)) * tips + np.sign(end) for end in span)
         spans.append((max(low * sides, float(axis[0])), min(high * sides, float(axis[-1]))))
     return spans[0], spans[1]
@@ -240,7 +235,8 @@ def pressure_top(result: Solution) -> float:
     """
     pressure = np.nan_to_num(result.pressure, nan=0.0, posinf=0.0, neginf=0.0)
     if result.errors is not None and not result.errors.pressure_has_limit:
-        inside = result.groups.ellipticity * (1.0 - np.abs(result.scaled.y)) > _END
+        # half-widths from the end within which the pressure may have no limit
+        inside = result.groups.ellipticity * (1.0 - np.abs(result.scaled.y)) > 0.5
         pressure = pressure[inside]
     return max(float(pressure.max(initial=0.0)), 0.0)
 

@@ -34,13 +34,8 @@ from tehl.post.micro_film import micro_film
 from tehl.post.roughness import film_histogram, rough_film
 from tehl.result.solution import Solution
 
-_LINE_HALF_WIDTHS = 1.25
-"""Half-widths of the centre line between rough surfaces, on each side."""
 _AROUND = (-1.4, 1.4)
 """Part of both axes with profiles of the pressure [half-widths]."""
-_PROFILES = 45
-_PRESSURE_ROOM = 1.05
-"""End of the scale of a pressure without limit, over the largest one that has one."""
 
 
 def centre_lines(result: Solution, *, title: bool | None = True) -> Figure:
@@ -96,7 +91,7 @@ def _pressure_and_film(axes: Axes, result: Solution, profile: Profile, line: Lin
     axes.set_ylabel("pressure p [GPa]", color=PRESSURE)
     axes.set_ylim(bottom=0.0)
     if result.errors is not None and not result.errors.pressure_has_limit:
-        axes.set_ylim(top=_PRESSURE_ROOM * pressure_top(result) * GIGA)
+        axes.set_ylim(top=1.05 * pressure_top(result) * GIGA)
     film.plot(place, profile.dry_gap * MICRO, color=FILM, lw=0.8, ls=":", label="dry gap")
     film.plot(place, profile.film_thickness * MICRO, color=FILM, lw=1.4, label="film")
     if result.oil is not None:
@@ -138,7 +133,8 @@ def rough_centre_line(
         If both surfaces are smooth.
     """
     heights, row = heights_of(result).together, centre_row(result)
-    inside = np.abs(result.scaled.x) <= _LINE_HALF_WIDTHS
+    # half-widths on each side
+    inside = np.abs(result.scaled.x) <= 1.25
     place = result.x[inside] * MICRO
     picture = figure(result, (7.6, 7.0), title=title)
     upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[1.5, 1.0])
@@ -224,7 +220,7 @@ def pressure_surface(result: Solution, *, title: bool | None = True) -> Figure:
     axes: Any = picture.add_subplot(projection="3d", computed_zorder=False)
     columns = span_part(result.scaled.x, _AROUND)
     every = np.arange(result.scaled.y.size)[span_part(result.scaled.y, _AROUND)]
-    rows = np.unique(np.linspace(every[0], every[-1], _PROFILES).round().astype(int))
+    rows = np.unique(np.linspace(every[0], every[-1], 45).round().astype(int))
     x, y = result.x[columns] * MICRO, result.y[rows] * MICRO
     top = max(pressure_top(result) * GIGA, 1e-9)
     pressure = np.minimum(np.nan_to_num(result.pressure[rows][:, columns] * GIGA), 1.02 * top)

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tehl.plots.arrows import MICRO
+from tehl.plots.arrows import MICRO, NANO
 from tehl.plots.frame import (
     MAP,
     colour_bar,
@@ -21,7 +21,6 @@ from tehl.plots.frame import (
 from tehl.post.starvation import meniscus, oil_flux
 from tehl.result.solution import Solution
 
-NANO = 1e9
 _STREAMS: dict[str, Any] = {"color": "0.25", "linewidth": 0.5, "arrowsize": 0.6, "density": 0.9}
 
 

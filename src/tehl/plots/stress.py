@@ -39,12 +39,8 @@ DEEPEST_SHOWN = 1.5
 LONGEST_SECTION, STRETCHED_SECTION = 3.0, 2.0
 """Length of a section over its depth up to which both have one scale, and of longer ones as drawn,
 which are stretched."""
-SLENDER_FLOOR = 1.5
-"""Height of the map of a plane over its width, as drawn, beyond which the figure is higher."""
 PLANES = {"x": "y = 0", "y": "x = 0"}
 """Plane of a section along x or y."""
-DRAWN_DEPTHS = 200
-"""Depths of a section as drawn: stresses at the depths computed are interpolated."""
 
 
 def stress_section(result: Solution, *, title: bool | None = True) -> Figure:
@@ -105,7 +101,8 @@ def stress_planes(result: Solution, *, title: bool | None = True) -> Figure:
     body = numbers.worse
     row = int(np.argmax(found.body == body.body))
     deep = float(found.floor_depth[row]) * MICRO
-    slender = shape(result) > SLENDER_FLOOR
+    # a high map has a higher figure
+    slender = shape(result) > 1.5
     size = (9.6, 5.6) if slender else (9.6, 4.1)
     picture = figure(result, size, f"below surface {body.body}", title=title)
     picture.set_layout_engine("compressed")
@@ -174,7 +171,8 @@ def finer(depth: Array, planes: Array, reach: float) -> tuple[Array, Array]:
     reach : float
         The deepest depth of the picture [m].
     """
-    even = np.linspace(depth[0], max(reach, 2.0 * depth[0]), DRAWN_DEPTHS)
+    # as drawn: stresses at the depths computed are interpolated
+    even = np.linspace(depth[0], max(reach, 2.0 * depth[0]), 200)
     spline = make_interp_spline(np.log(depth), planes, axis=-2)
     return even, np.asarray(spline(np.log(np.minimum(even, depth[-1]))))
 

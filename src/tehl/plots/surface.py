@@ -17,7 +17,6 @@ _CLIPPED, _COUNTED_HEIGHTS = 0.1, 10**6
 """Percentile of the heights that colours leave out, and the number of heights it is found from."""
 _SIZE, _NARROW_SIZE = (10.5, 5.4), 8.0
 _SLENDER_MAP = 2.0
-_HISTOGRAM_BINS = 81
 
 
 def surface_preview(preview: Preview, *, title: bool | None = True) -> Figure:
@@ -114,7 +113,7 @@ def _draw_heights(axes: Axes, preview: Preview) -> None:
     off = (preview.heights.values - preview.heights.values.mean()).ravel() * factor
     sq = preview.statistics.sq * factor
     reach = float(np.clip(np.abs(off).max(), 3.5 * sq, 8.0 * sq))
-    axes.hist(off, bins=_HISTOGRAM_BINS, range=(-reach, reach), density=True, color="#9db8dc")
+    axes.hist(off, bins=81, range=(-reach, reach), density=True, color="#9db8dc")
     places = np.linspace(-reach, reach, 300)
     normal = np.exp(-0.5 * (places / sq) ** 2) / (sq * np.sqrt(2.0 * np.pi))
     axes.plot(places, normal, color="0.25", lw=1.0, ls="--", label="normal, same Sq")

@@ -21,7 +21,6 @@ COLOURS = (BLUE, ORANGE, "#2f7d32", "#7b3fa0", "#b58900", "#0f8b8d", "#a3123f", 
 _LINES = ("-", "--", ":", "-.")
 _MARKS = ("o", "s", "^", "D", "v", "P")
 _POINTS = "x+*1"
-_MOST_CURVES = 40
 
 
 def curves(  # noqa: PLR0913 (one call, as in other libraries of pictures)
@@ -73,7 +72,7 @@ def curves(  # noqa: PLR0913 (one call, as in other libraries of pictures)
     up, bars = certified(rows, numbers(rows, y))
     hue, style, joined = _distinguished(rows, across.name, hue, style)
     hues, styles = _distinct(rows, hue), _distinct(rows, style)
-    if len(hues) * len(styles) > _MOST_CURVES:
+    if len(hues) * len(styles) > 40:
         raise InputError(f"{len(hues) * len(styles)} curves are too many for a picture")
     axes = empty(ax)
     for i, one in enumerate(hues):

@@ -49,11 +49,6 @@ Line = tuple[int, slice] | tuple[slice, int]
 """Index of a grid line in the fields."""
 _TICKS = {2: 7, 3: 4, 6: 2}
 """Ticks along x, by the number of columns."""
-_POINTS_ACROSS = 81
-_FLAT_RISE = 1e-6
-"""Part of the span around zero without a contour line: far out the rise is flat, and zero."""
-_HIGHEST_FILM = 3.0
-"""Films that the section shows, in central films."""
 
 
 def mid_film_temperature(
@@ -104,7 +99,8 @@ def _coloured(
     """Draw a rise as colours and contour lines; return both."""
     mesh = axes.pcolormesh(*places, rise, clim=span, cmap="inferno", **MAP)
     levels = inner_levels(span)
-    levels = levels[np.abs(levels) > _FLAT_RISE * (span[1] - span[0])]
+    # without a line around zero: far out the rise is flat, and zero
+    levels = levels[np.abs(levels) > 1e-6 * (span[1] - span[0])]
     line: dict[str, Any] = {"colors": "white", "linewidths": 0.6, "alpha": 0.75}
     return mesh, axes.contour(*places, np.nan_to_num(rise), levels=levels, **line)
 
@@ -175,7 +171,7 @@ def temperature_section(result: Solution, *, title: bool | None = True) -> Figur
     heat, found = _heat_of(result)
     row, columns = centre_row(result), span_part(result.scaled.x, window(result)[0])
     x, film = result.x[columns] * MICRO, np.nan_to_num(result.film_thickness[row, columns] * 1e9)
-    zeta = np.linspace(0.0, 1.0, _POINTS_ACROSS)
+    zeta = np.linspace(0.0, 1.0, 81)
     rise = np.nan_to_num(heat.temperature[:, row, columns] - found.inlet)
     rise = CubicSpline(heat.zeta, rise, axis=0)(zeta)
     picture = figure(result, (7.6, 7.0), title=title)
@@ -184,7 +180,7 @@ def temperature_section(result: Solution, *, title: bool | None = True) -> Figur
     for axes, height in ((upper, np.ones_like(x)), (lower, film)):
         mesh, lines = _coloured(axes, (along, np.outer(zeta, height)), rise, _span(rise))
     lower.plot(x, film, color="black", lw=0.9)
-    top = _HIGHEST_FILM * result.film.central * 1e9
+    top = 3.0 * result.film.central * 1e9  # what the section shows
     lower.set(ylabel="z [nm]", ylim=(0.0, top if top > 0 else 1.0), facecolor="0.88")
     lower.set(xlabel=ALONG_X, xlim=(x[0], x[-1]))
     upper.set(ylabel="z / h", ylim=(0.0, 1.0))

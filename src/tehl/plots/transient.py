@@ -19,13 +19,12 @@ _MOMENTS = 4
 """Moments in one picture."""
 _FILM_AXIS_HEIGHT = 2.2
 """Height of the film axis, over the largest film in the contact."""
-_MILLISECOND = 2e-3
-"""Duration from which on times are in milliseconds [s]."""
 
 
 def time_unit(run: TransientSolution) -> tuple[float, str]:
     """Return the factor from seconds to a fitting unit, and that unit."""
-    return (1e3, "ms") if run.history.time[-1] >= _MILLISECOND else (1e6, "µs")
+    # short runs are in microseconds
+    return (1e3, "ms") if run.history.time[-1] >= 2e-3 else (1e6, "µs")
 
 
 def history(run: TransientSolution, *, title: bool | None = True) -> Figure:

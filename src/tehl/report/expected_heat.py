@@ -40,10 +40,7 @@ TYPICAL_CONDUCTIVITY = 0.14
 """Of an oil that states none [W/m/K]."""
 NOTICEABLE = 3.0
 """Difference between a body and the oil at the inlet that is reported [K]."""
-_SLOWEST = 1e-9
-"""Sliding speed below which there is no heat [m/s]."""
 _PEAK = 1.5  # Hertzian shape: centre over mean
-_BISECTIONS = 60
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -165,7 +162,7 @@ def expected_heat(scaled: ScaledProblem, bodies: BodyEffect | None) -> ExpectedH
     sliding, pressure = problem.sliding_speed, problem.hertz.pressure / _PEAK
     assumed = not problem.temperature_coefficient > 0
     stress = ASSUMED_TRACTION * pressure
-    if sliding < _SLOWEST:
+    if sliding < 1e-9:  # [m/s], without heat
         stress = 0.0
     elif not assumed:
         stress = _shear_stress(problem, mean, pressure, sliding / film)
@@ -247,7 +244,7 @@ def _shear_stress(problem: ContactProblem, path: _HeatPath, pressure: float, rat
         return oil.shear.thinned(oil.viscosity.viscosity(pressure, temperature) * rate, pressure)
 
     low, high = 0.0, min(remaining(0.0), pressure)
-    for _ in range(_BISECTIONS):
+    for _ in range(60):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if remaining(middle) > middle else (low, middle)
     return high

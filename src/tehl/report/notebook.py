@@ -14,8 +14,6 @@ from tehl.report.headline import headline
 from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
 
-_NOTEBOOK_DPI = 72
-
 
 def result_html(result: Solution | TransientSolution) -> str:
     """Return title, numbers and a picture of a result as HTML; each text is escaped."""
@@ -37,7 +35,7 @@ def result_html(result: Solution | TransientSolution) -> str:
 def image_html(figure: Figure, words: str) -> str:
     """Return a matplotlib figure as an image in HTML."""
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=_NOTEBOOK_DPI, bbox_inches="tight")
+    figure.savefig(buffer, format="png", dpi=72, bbox_inches="tight")
     return f'<img alt="{escape(words)}" src="{_url(buffer)}">'
 
 

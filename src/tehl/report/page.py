@@ -56,8 +56,6 @@ CAPTIONS = {
     "interferogram_dichromatic": "Synthetic interferogram, two lines.",
 }
 """Pictures of a report, in its order."""
-MOST_LISTED_CYCLES = 12
-"""Cycles that a report lists."""
 
 
 def report_text(
@@ -89,7 +87,7 @@ def report_text(
     content |= {
         "effect": effect,
         "heat": result.heat,
-        "longest": MOST_LISTED_CYCLES,
+        "longest": 12,  # cycles that a report lists
         "main_rows": list(rows_of(result, "report")),
         "rises": list(rows_of(result, "rises")),
         "rough": rough_film(result, smooth),

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from tehl.base.typing import np
 from tehl.base.units import percentage
 from tehl.contact.heat import FAR_BODY, LAYERS
-from tehl.contact.options import Domain, Options
+from tehl.contact.options import MOST_NODES_PER_AXIS, Domain, Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.roller import SLICES
 from tehl.contact.summits import GreenwoodTripp
@@ -18,7 +18,7 @@ from tehl.estimate.nodes import expected_bar, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
-from tehl.report.roughness import CONVERGES, MOST_NODES_PER_AXIS, RESOLVES, Asperities
+from tehl.report.roughness import CONVERGES, RESOLVES, Asperities
 
 SLIDING = 0.02
 """Slide-roll ratio from which on surfaces count as sliding."""
@@ -27,8 +27,6 @@ WARM = 5.0
 UNPHYSICAL, UNPHYSICAL_STRESS = 0.8e9, 1.0
 """Hertz pressure from which on a sliding Newtonian film is not plausible [Pa], and stress over the
 pressure, before heat, from which on one that thins is not."""
-FEW_LAYERS = 15
-"""Uniform layers below which a temperature profile is under-resolved."""
 SLOWEST_LINE = 5.0
 """Solid Peclet number below which a line source deviates by more than four per cent."""
 NEAR_EDGE_RATIO, LEAST_DOMAIN_ERROR = 0.95, 0.005
@@ -36,10 +34,6 @@ NEAR_EDGE_RATIO, LEAST_DOMAIN_ERROR = 0.95, 0.005
 film by zero pressure on the edges from which on it is."""
 LEAST_CONFORMITY, LARGEST_CONFORMITY = 1.005, 1.25
 """Radius of the groove of a bearing over that of its ball: conformities of 0.5025 to 0.625."""
-MOLECULAR = 5e-9
-"""Film below which the oil is not a continuum [m]."""
-STEEP_SLOPE = 0.1
-"""Slope from which on Reynolds' equation does not hold."""
 SHARP_END, TOUCHING = 0.5, 0.5
 """Load at an end of a roller over the largest along it, from which on its sharp end carries, and
 part of the length that touches below which the cycles do not converge then: 0.56 and 0.68 do, 0.44
@@ -250,7 +244,7 @@ def _about_film(scaled: ScaledProblem) -> Iterator[str]:
     film, rough = likely_film(scaled).central_m, scaled.problem.rms_roughness
     if scaled.problem.asperities is not None:
         rough = 0.0  # they are computed
-    if film < MOLECULAR:
+    if film < 5e-9:  # [m], where the oil is not a continuum
         yield (
             f"the expected film of {film * 1e9:.2g} nm is a few molecules: the oil is not a "
             "continuum there, check speed and viscosity"
@@ -304,7 +298,8 @@ def _about_heat(problem: ContactProblem, heat: ExpectedHeat | None) -> Iterator[
         )
     if thermal is None:
         return
-    if thermal.scheme == "uniform" and thermal.nodes < FEW_LAYERS:
+    # a temperature profile is under-resolved
+    if thermal.scheme == "uniform" and thermal.nodes < 15:
         yield (
             f"thermal.layers = {thermal.nodes}: too few for uniform layers; take "
             f'{LAYERS["uniform"]} or more, or scheme = "chebyshev"'
@@ -400,7 +395,7 @@ def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -
             f"converge; {enough} put {CONVERGES} on it, {better} the {RESOLVES} that its ripples "
             "need"
         )
-    if found.steepest > STEEP_SLOPE:
+    if found.steepest > 0.1:  # where Reynolds' equation does not hold
         yield (
             f"the surfaces have slopes up to {found.steepest:.2g}: Reynolds' equation needs small "
             "ones, check the units of height and length"

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from tehl.contact.options import Options, coarsenable
+from tehl.contact.options import MOST_NODES_PER_AXIS, Options, coarsenable
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.wave_theory import LinearTheory, expected_waves
 from tehl.operators.resolution import resolution_of, sample_of
@@ -15,8 +15,6 @@ from tehl.roughness.resolution import Resolution
 
 CONVERGES, RESOLVES = 8, 16
 """Nodes on the shortest wave with which runs converge, and with which ripples are right to 3 %."""
-MOST_NODES_PER_AXIS = 16385
-"""Nodes per direction beyond which no number is proposed."""
 _THEORY = ("film_ratio", "pressure", "elastic_pressure")
 
 

@@ -16,6 +16,7 @@ from tehl.roughness.files.raw import shown
 from tehl.roughness.map_settings import MapSettings
 from tehl.roughness.model import BEYOND, metres
 from tehl.roughness.prepare import (
+    RELATIVE_ROUNDING,
     Heights,
     filled,
     gaussian_mean,
@@ -28,7 +29,6 @@ from tehl.roughness.tile import Tile
 _LEAST_POINTS = 4
 _TAPER = 0.1
 _LEAST_SQ, _LARGEST_SQ = 1e-12, 10e-6
-_RELATIVE_ROUNDING = 1e-12
 _PHASES = ("rad", "radian", "radians", "waves", "wave", "fringes", "fringe", "fr", "wv")
 _LARGEST_SIZE, _LEAST_SPACING, _LARGEST_HEIGHT = 1.0, 1e-10, 1.0
 
@@ -261,7 +261,7 @@ def _filtered(surface: MapSettings, values: Array, heights: Heights, notes: list
 
 def _check_heights(surface: MapSettings, heights: Heights, highest: float) -> None:
     """Reject heights that are constant or outside the physical range; ``highest`` in [m]."""
-    if not np.ptp(heights.values[heights.measured]) > _RELATIVE_ROUNDING * highest:
+    if not np.ptp(heights.values[heights.measured]) > RELATIVE_ROUNDING * highest:
         raise InputError("is constant: it has no roughness")
     off, how = heights.sq, f'after level = "{surface.level}"'
     if not off >= _LEAST_SQ:

@@ -19,7 +19,7 @@ _NEIGHBOURS, _EXPLAINS = 5, 7
 """Points along the edges of the windows of the medians, and of the range of these."""
 _OUTLIER_SIGMAS = 5.0
 """Standard deviations beyond which a distance does not count for their size."""
-_RELATIVE_ROUNDING = 1e-12
+RELATIVE_ROUNDING = 1e-12
 _DEGREE = {"mean": 0, "plane": 1, "quadratic": 2}
 _ALPHA = math.sqrt(math.log(2.0) / math.pi)
 _RIM = 12
@@ -81,7 +81,7 @@ def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
     explained = ndimage.maximum_filter(median, _EXPLAINS, mode="nearest")
     explained -= ndimage.minimum_filter(median, _EXPLAINS, mode="nearest")
     off = np.abs(whole - median)
-    rounding = _RELATIVE_ROUNDING * float(np.abs(whole).max())
+    rounding = RELATIVE_ROUNDING * float(np.abs(whole).max())
     limit = np.maximum(explained, max(sigmas * _usual(off[there]), rounding))
     spikes = there & (off > limit)
     return np.where(spikes, np.nan, values), int(spikes.sum())

@@ -27,10 +27,6 @@ Steps = tuple[End, End, Annotated[int, Field(ge=1)]]
 _KINDS = ("values", "file", "linspace", "geomspace", "uniform", "loguniform")
 """Ways to state the values of an axis."""
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+|inf|nan)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
-_SIGNIFICANT_DIGITS = 12
-"""Significant digits of a value: 0.3, not 0.30000000000000004."""
-_LONGEST_VALUE = 60
-"""Characters of a value in a message."""
 _TITLES = "name"
 """Column of a list of cases that names them."""
 
@@ -103,7 +99,7 @@ class Axis(Table):
             words = Counter(json.dumps(one, default=str, sort_keys=True) for one in found or ())
             word, count = next(iter(words.most_common(1)), ("", 0))
             if count > 1:
-                raise ValueError(f"has the {what} {word[:_LONGEST_VALUE]} twice: give each once")
+                raise ValueError(f"has the {what} {word[:60]} twice: give each once")
 
     def with_values(self, folder: Path) -> "Axis":
         """Return the axis with the values of its file, whose path begins in ``folder``."""
@@ -148,7 +144,8 @@ def _spread(first: End, last: End, places: Array, *, geometric: bool) -> list[En
         raise ValueError("must have two positive ends to be geometric")
     rest = 1.0 - places  # so that both ends are exact
     numbers = low**rest * high**places if geometric else low * rest + high * places
-    return [_stated(float(f"{number:.{_SIGNIFICANT_DIGITS}g}"), unit) for number in numbers]
+    # 0.3, not 0.30000000000000004
+    return [_stated(float(f"{number:.12g}"), unit) for number in numbers]
 
 
 def _stated(number: float, unit: str) -> End:

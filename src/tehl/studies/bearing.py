@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 else:
     solvers = lazy("tehl.api.solvers")
 
-LEAST_LOAD = 1e-3
-"""Load over that of the most loaded element, below which an element counts as unloaded."""
-
 
 def in_series(first: Array, second: Array, inertia: Array | float = 0.0) -> Array:
     """Return the impedance k + i omega c of two films with a rolling element between them.
@@ -57,7 +54,8 @@ def radial_loads(force: float, elements: int, exponent: float = 1.5) -> tuple[Ar
     angle = np.where(angle > np.pi, angle - 2.0 * np.pi, angle)
     approach = np.maximum(np.cos(angle), 0.0)
     load = force * approach**exponent / (approach ** (exponent + 1.0)).sum()
-    loaded = load > LEAST_LOAD * load.max()
+    # of the most loaded element
+    loaded = load > 1e-3 * load.max()
     return angle[loaded], load[loaded]
 
 

@@ -41,8 +41,6 @@ _ENVIRONMENT = dict.fromkeys((*_THREADS, "PYTHONSAFEPATH"), "1")
 """Of workers: one thread; a random.py in the current folder does not shadow the library's."""
 _STARTS, _PAUSE = 3, 0.1
 """Attempts to start workers, and seconds between them, for a crashed fork server to end."""
-_WORKER_GRACE_SECONDS = 10.0
-"""Seconds for a terminated worker to end."""
 _STARTING = Lock()
 """Held while the environment of the program is that of workers."""
 _CONNECT = 30.0
@@ -222,7 +220,7 @@ def end(workers: list[WorkerProcess]) -> None:
         worker.connection.close()
         worker.process.terminate()
     for worker in workers:
-        worker.process.join(_WORKER_GRACE_SECONDS)
+        worker.process.join(10.0)  # seconds for a terminated worker to end
 
 
 @contextmanager

@@ -38,9 +38,6 @@ if TYPE_CHECKING:
 
 Axes = Mapping[str, Sequence[Any]] | Sequence[Axis]
 
-_MOST_CASES = 10_000
-"""Cases of a study that does not state ``largest``."""
-
 
 class StudyFile(Table):
     """The keys of a study file, as the user guide explains them."""
@@ -143,7 +140,7 @@ def _plan_of(
 
 def _check_keys(stated: StudyFile, count: int, *, unlimited: bool) -> None:
     """Raise for too many cases, and for keys without those that they need."""
-    limit = stated.largest or _MOST_CASES
+    limit = stated.largest or 10_000
     if count > limit and not unlimited:
         raise InputError(
             f"has {count:,} cases, more than {limit:,}: if this is intended, state "

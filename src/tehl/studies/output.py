@@ -27,7 +27,6 @@ else:
     table_columns = lazy("tehl.plots.table_columns")
 
 Range = tuple[float, float]
-_PICTURE_DPI = 200
 _KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file", "format", "title")
 """What ``--plot`` can state."""
 
@@ -160,7 +159,7 @@ def save(picture: Picture, table: "pd.DataFrame", folder: Path) -> Path:
         Where the file appears, whole or not at all.
     """
     path = folder / picture.file_name
-    plots.save_picture(draw(picture, table), path, dpi=_PICTURE_DPI)
+    plots.save_picture(draw(picture, table), path, dpi=200)
     return path
 
 

@@ -26,11 +26,6 @@ from tehl.studies.store import Keep, Store
 if TYPE_CHECKING:
     import pandas as pd
 
-_LABELS_IN_NAME = 5
-"""Labels in the name of a case."""
-_LONGEST_LABEL = 60
-"""Characters of a label."""
-
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Plan:
@@ -130,12 +125,12 @@ def _label(stated: Any, found: Any) -> Label:
         words = [stated[key] for key in ("law", "name", "type") if key in stated]
         if words:
             return str(words[0])
-    return json.dumps(stated, ensure_ascii=False, default=str)[:_LONGEST_LABEL]
+    return json.dumps(stated, ensure_ascii=False, default=str)[:60]  # characters of a label
 
 
 def _phrases(labels: Mapping[str, Label], units: Mapping[str, str]) -> Iterator[str]:
     """Yield the first labels for the name of a case: load = 20 N."""
-    for name, value in islice(labels.items(), _LABELS_IN_NAME):
+    for name, value in islice(labels.items(), 5):
         number, unit = str(value), ""
         if isinstance(value, float):
             number, unit = f"{value:.6g}", f" {units.get(name, '1')}".removesuffix(" 1")

@@ -35,12 +35,6 @@ if TYPE_CHECKING:
 else:
     warmup = lazy("tehl.kernels.warmup")
 
-_LARGEST_TASK = 32
-"""Cases of a task."""
-_SHARES = 4
-"""Least number of tasks left for each worker, so that all end at about the same time."""
-_ZERO_LABEL = 1e-12
-"""A label below it is next to zero."""
 _DIED = (
     "the process that solved this case died, and died again with no other case in work; the "
     "system may have ended it for lack of memory"
@@ -223,7 +217,8 @@ def _kind_and_place(case: Case) -> tuple[object, tuple[float, ...]]:
     values = case.labels.values()
     words = tuple(value for value in values if isinstance(value, str))
     # on this scale equal ratios are equal steps, far from zero
-    place = tuple(math.asinh(value / _ZERO_LABEL) for value in values if not isinstance(value, str))
+    # labels below 1e-12 are next to zero
+    place = tuple(math.asinh(value / 1e-12) for value in values if not isinstance(value, str))
     return (tuple(case.labels), words, case.options.points), place
 
 
@@ -282,8 +277,9 @@ class _Run:
         if self.alone or in_order or not self.solved:
             return 1
         quick = int(engine.task_seconds * self.solved / max(self.seconds, 1e-9))
-        share = len(self.waiting) // (_SHARES * max(workers, 1))
-        return max(1, min(quick, share, _LARGEST_TASK))
+        # four tasks are left for each worker, so that all end at about the same time
+        share = len(self.waiting) // (4 * max(workers, 1))
+        return max(1, min(quick, share, 32))  # cases of a task
 
     def _files(self, case: Case) -> Files:
         """Return where a worker writes the fields of a case, and finds those to start from."""
@@ -335,16 +331,14 @@ def _compile_once(cases: Iterable[Case], monitor: StudyMonitor) -> None:
 
 # ---- forecast
 
-_CERTIFIED = 3.5
-"""Work of a certified solve over that of its finest grid, to tight tolerances."""
 _BASE_SECONDS, _START_SECONDS = 0.025, 3.0
 """Of a case, beside its solve; until workers solve."""
 _ROW_BYTES, _FILE_BYTES = 3_500, 25_000
 """Of a finished case: its row; its file of fields, beside those by node."""
 _FIELD_BYTES, _LAYER_BYTES = 37, 8
 """Compressed, per node: pressure, film and shear stresses; each layer of temperature."""
-_LEAST_FINISHED = 3
-"""Finished cases that show how fast this machine is."""
+LEAST_FINISHED = 3
+"""Finished cases that show how fast this machine is, and how long the others take."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -379,7 +373,7 @@ def forecast(
     waiting = [case for key, case in every.items() if key not in finished]
     known = {key: row.cost.cpu_seconds for key, row in finished.items() if row.cost.cpu_seconds > 0}
     estimated = sum(_seconds(every[key]) for key in known)
-    slowness = sum(known.values()) / estimated if len(known) >= _LEAST_FINISHED else 1.0
+    slowness = sum(known.values()) / estimated if len(known) >= LEAST_FINISHED else 1.0
     seconds = [slowness * _seconds(case) for case in waiting]
     workers = max(1, min(jobs, len(waiting)))
     disk = sum(_ROW_BYTES + (_field_bytes(case) if fields else 0) for case in every.values())
@@ -392,7 +386,7 @@ def forecast(
         wall_seconds=longest + (_START_SECONDS if waiting else 0.0),
         disk_bytes=disk,
         memory_bytes=sum(needs[:workers]),
-        is_calibrated=len(known) >= _LEAST_FINISHED,
+        is_calibrated=len(known) >= LEAST_FINISHED,
     )
 
 
@@ -441,7 +435,8 @@ def _plan(case: Case) -> Options:
 
 def _seconds(case: Case) -> float:
     seconds = expected_seconds(ScaledProblem.of(case.problem), case.options) + _BASE_SECONDS
-    return seconds * (_CERTIFIED if case.certify else 1.0)
+    # over the work of the finest grid, to tight tolerances
+    return seconds * (3.5 if case.certify else 1.0)
 
 
 def _field_bytes(case: Case) -> int:

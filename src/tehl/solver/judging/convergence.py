@@ -16,6 +16,7 @@ from tehl.result.solution import CycleReport
 from tehl.solver.judging.extrapolation import Outputs
 
 LEAST_CYCLES = 2
+"""Least cycles of a grid, and of a time step."""
 LEAST_CONVERGENCE_RATE, GUESSED_RATE, LARGEST_CONVERGENCE_RATE, LARGEST_ALTERNATING = (
     0.2,
     0.3,

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 from tehl.base.units import percentage
 from tehl.base.wording import grid_size
-from tehl.contact.options import Domain, Options, can_be_halved
+from tehl.contact.options import MOST_NODES_PER_AXIS, Domain, Options, can_be_halved
 from tehl.estimate.domain import far_field_error
 from tehl.estimate.entering import entry_error
 from tehl.estimate.memory import USUAL_MEMORY, memory_limit, needed_memory
@@ -52,8 +52,6 @@ starved rig (M = 811)."""
 BETWEEN, BETWEEN_MARGIN, MOST_OTHERS = 1.5, 1.05, 2
 """Most intervals along x of another grid over those of the last, as half the mesh width costs four
 times as much; margin of its error bars; and how many other grids are tried."""
-MOST_NODES_PER_AXIS = 16385
-"""Most nodes along one direction."""
 
 
 def estimated_errors(

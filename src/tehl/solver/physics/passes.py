@@ -26,8 +26,6 @@ FULL_GAP_INLET_DISTANCE = 1.0
 RESOLVED_INLET_DISTANCE = 0.25
 """Inlet distance over the mesh width below which the film no longer follows the law of side flow;
 a steel ball on glass is within 8 % of it there (docs/validation.md)."""
-MOST_REFINEMENTS = 2
-"""Times that the grid is refined where the film has become too thin for it."""
 COLUMNS = ("time", "film_central", "film_minimum", "entering", "leaving", "inlet_distance")
 
 
@@ -127,7 +125,7 @@ def _one_pass(
     left, right, low, high = state.edges
     domain = Domain.model_construct(x=(left, right), y=(low, high))
     options = options.model_copy(update={"domain": domain}).on_points(*state.points)
-    for _ in range(MOST_REFINEMENTS + 1):
+    for _ in range(3):  # the grid is refined twice where the film becomes too thin for it
         _, result = try_strategies(
             problem, options, monitor=monitor, rough=True, flooded=state.flooded
         )

@@ -27,7 +27,7 @@ from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.relaxation import Relaxation
 from tehl.solver.cycle.start import pose_step
 from tehl.solver.cycle.transfers import TRANSFERS
-from tehl.solver.judging.convergence import LEAST_KELVIN, RUNAWAY
+from tehl.solver.judging.convergence import LEAST_CYCLES, LEAST_KELVIN, RUNAWAY
 from tehl.solver.physics.boundary_cycle import TouchingCycle
 from tehl.solver.transient.oil import Lead, Oil, Squeeze
 from tehl.solver.transient.predictor import Predictor
@@ -39,8 +39,6 @@ LARGEST_REST = 0.01
 to touch change little."""
 LARGEST_STEP_KELVIN_CHANGE = 0.01
 """Change of temperature in the last cycle of a step, over the largest rise."""
-LEAST_CYCLES = 2
-"""Least cycles of a step."""
 WEIGHT_OF_POINTS = 12.0
 """Weight of rho H in a step over the conductance from which nodes relax as points. A smooth error
 moves the film more than a point does, and grows where the conductance does not outweigh it: at

@@ -15,8 +15,6 @@ from tehl.lubricant.shear import LEAST_EYRING, LEAST_LIMIT
 _PREFIX = "lubricant."
 _SEARCH_FACTOR = 100.0
 """Factor around its start within which a constant without limits of its own is sought."""
-_LARGEST_STRESS = 1e10
-"""Largest stress [Pa] of a shear law: far above every measured one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +35,8 @@ class _Named:
 _NAMED = {
     "alpha": _Named("viscosity.alpha", "1/GPa", 1e-9, 1e-9, 1e-7),
     "eyring_stress": _Named("shear.stress", "MPa", 1e6, LEAST_EYRING, 1e9, "eyring", 5e6),
-    "carreau_modulus": _Named("shear.modulus", "MPa", 1e6, 1e3, _LARGEST_STRESS, "carreau", 5e6),
+    # 1e10 Pa is far above every measured stress
+    "carreau_modulus": _Named("shear.modulus", "MPa", 1e6, 1e3, 1e10, "carreau", 5e6),
     "carreau_exponent": _Named("shear.exponent", "", 1.0, 0.02, 0.99, "carreau", 0.5),
     "limiting_stress": _Named("shear.stress", "MPa", 1e6, LEAST_LIMIT, 1e9, "limiting", 5e6),
     "limiting_slope": _Named("shear.slope", "", 1.0, 1e-3, 0.5, "limiting", 0.05),
