@@ -162,7 +162,11 @@ MISTAKES = [
     ("numerics.domain={x=[-inf, 1.5], y=[-3, 3]}", "numerics.domain.x", "two finite numbers"),
     ("numerics.domain={x=[1.5, -4.5], y=[-3, 3]}", "numerics.domain.x", "begin with its lower"),
     ("numerics.domain={x=[-1e5, 1.5], y=[-3, 3]}", "numerics.domain.x", "within 1000 Hertz"),
-    ('dynamics.frequencies="1 kHz"', 'dynamics.frequencies = "1 kHz"', "must be a list, in square br"),
+    (
+        'dynamics.frequencies="1 kHz"',
+        'dynamics.frequencies = "1 kHz"',
+        "must be a list, in square br",
+    ),
     ("numerics.max_memory=1e30", "numerics.max_memory = 1e+30", "is not an amount of memory, su"),
     ("lubricant.temperature=0.0", "lubricant.temperature = 0", "is not above absolute zero"),
     ("numerics.domain={x=3, y=[-3, 3]}", "numerics.domain.x = 3", "a list of two numbers"),

@@ -157,7 +157,9 @@ def test_the_tilt_and_its_bar_are_shown_and_stored(tmp_path):
 
 def test_explain_states_the_tilt_of_dry_slices():
     text = repr(crowned(tilting_moment="-0.5 N m").explain())
-    assert "mrad of dry slices; that of the film is smaller and follows from the moment -0.5" in text
+    assert (
+        "mrad of dry slices; that of the film is smaller and follows from the moment -0.5" in text
+    )
 
 
 @pytest.mark.parametrize(("moment", "is_asked"), [(0.0, False), (4.0, False), (-9.0, True)])

@@ -279,7 +279,11 @@ def test_a_limiting_stress_that_is_not_reached_stays_open(tmp_path, case):
         ("film [nm];nu_40 [mm^2/s]\n80;46\n90;50\n", "alpha", "the fit is for one oil"),
         ("film [nm]\n80\n", "alpha", "1 measured values for 1 constants: at least 2"),
         ("film [m]\n80\n90\n", "alpha", "more than 0.1 mm; check the unit"),
-        ("film [nm],u_m [m/s]\n80,1\n90,1e9\n", "alpha", "row 3: contact.entrainment_speed = 1e+09"),
+        (
+            "film [nm],u_m [m/s]\n80,1\n90,1e9\n",
+            "alpha",
+            "row 3: contact.entrainment_speed = 1e+09",
+        ),
         ("traction,u_m [m/s]\n.03,1\n.04,1e9\n", "alpha", "more than 1000 m/s; check the unit"),
         ("film [nm],u_m [m/s]\n80,1\n90,1e-6\n", "alpha", "row 3: film = 90 nm: formulas give"),
         ("film [um]\n80\n90\n", "alpha", "check units of film, speed and load"),
