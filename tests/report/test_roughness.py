@@ -35,10 +35,19 @@ def test_a_wave_has_its_sq_slope_and_lambda_central():
     # 5.5 waves in the contact, so that the mean is not quite zero
     assert found.composite == pytest.approx(50e-9 / math.sqrt(2), rel=0.02)
     assert found.steepest == pytest.approx(2 * math.pi * 50e-9 / 80e-6, rel=0.02)
+    # pi E* A / wavelength over root two, E* = E'/2
+    pressure = math.pi * 0.5 * case.scaled.problem.reduced_modulus * 50e-9 / 80e-6
+    assert found.flattening == pytest.approx(pressure / math.sqrt(2), rel=0.02)
     assert "Sa                    surface 1 0 nm   surface 2 31." in as_text(case)
     assert case.lambda_central == pytest.approx(case.central_film / found.composite)
     assert case.questions == ()
     json.dumps(as_summary(case), allow_nan=False)
+
+
+@pytest.mark.parametrize(("rms", "is_asked"), [(40e-9, False), (100e-9, True)])
+def test_a_random_surface_that_hardly_flattens_is_reported(rms: float, is_asked: bool):
+    case = explained({"type": "random", "rms": rms, "correlation_length": "15 um", "seed": 2})
+    assert ("Hertz pressures (rms over the contact)" in as_text(case)) == is_asked
 
 
 def test_the_proposed_nodes_put_eight_and_sixteen_on_a_wave():

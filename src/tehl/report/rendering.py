@@ -70,6 +70,7 @@ def _environment() -> "Environment":
         "degrees": math.degrees,
         "about": lambda number: f"{float(f'{number:.2g}'):,.0f}",
         "g": lambda value, digits=4: f"{value:.{digits}g}",
+        "plain": lambda value, digits=1: f"{float(f'{value:.{digits}g}'):g}",  # 20, not 2e+01
         "metres": lambda value: _in_unit("nm" if value < 1e-6 else "um", value),
         "off": lambda formula, value: f"{100 * (formula / value - 1):+.1f} %",
         "percent": lambda part, digits=2: f"{float(f'{100 * part:.{digits}g}'):g} %",

@@ -31,6 +31,9 @@ class Asperities:
     """Which part of the stated heights the grid carries."""
     steepest: float
     """Largest slope of the heights [-]."""
+    flattening: float
+    """Root mean square of the dry pressure that flattens the heights of both surfaces [Pa]: a
+    height of wave number q takes E' q / 4 of it, so that E'/4 times the slope is left of all."""
     shortest_wave: float
     """Shortest wave along either axis of the full surfaces [m]."""
     points_per_wave: float
@@ -90,12 +93,14 @@ def asperities(
     fewest, axis = min(
         (count, number) for number, count in enumerate(counts[: 1 if is_line else 2])
     )
+    steepest, slopes = zip(*(_slopes(one, problem, mesh) for one in roughs), strict=True)
     size = (2.0 * problem.hertz.half_width_x, 0.0 if is_line else 2.0 * problem.hertz.half_width_y)
     return Asperities(
         sq=(first, second),
         composite=math.hypot(first, second),
         resolution=resolution,
-        steepest=max(_steepest(one, problem, mesh) for one in roughs),
+        steepest=max(steepest),
+        flattening=0.25 * problem.reduced_modulus * math.hypot(*slopes),
         shortest_wave=waves[axis],
         points_per_wave=fewest,
         points_to_converge=_needed(options, fewest, axis, CONVERGES),
@@ -110,14 +115,16 @@ def asperities(
     )
 
 
-def _steepest(roughness: AnyRoughness, problem: ContactProblem, mesh: tuple[float, float]) -> float:
-    """Return the largest slope of a surface in the contact, as a mesh carries it [-]."""
+def _slopes(
+    roughness: AnyRoughness, problem: ContactProblem, mesh: tuple[float, float]
+) -> tuple[float, float]:
+    """Return largest and rms slope of a surface in the contact, as a mesh carries it [-]."""
     if roughness.is_smooth:
-        return 0.0
+        return 0.0, 0.0
     resolved, place = roughness.resolved_on(*mesh), sample_of(roughness, problem)
     heights = np.broadcast_to(resolved.height(*place), (place.y.size, place.x.size))
-    slopes = np.gradient(heights, place.y[:, 0], place.x[0])
-    return float(np.hypot(*slopes).max())
+    squares = sum(one**2 for one in np.gradient(heights, place.y[:, 0], place.x[0]))
+    return math.sqrt(squares.max()), math.sqrt(squares.mean())
 
 
 def _as_it_passes(roughness: AnyRoughness, problem: ContactProblem) -> AnyRoughness:
