@@ -16,7 +16,7 @@ from tehl.io.templates import template_text
 from tehl.studies import Store
 from tehl.studies.answers import answers, values_of
 from tehl.studies.case import Case
-from tehl.studies.contacts import read_contacts, tables_of, template_tables
+from tehl.studies.contacts import contacts_of, read_contacts, tables_of, template_tables
 from tehl.studies.headings import column_of
 
 COARSE = """
@@ -106,6 +106,15 @@ def test_a_load_per_length_is_that_of_a_line(tmp_path, head):
     template.write_text(template_text("line"))
     problems = [case.problem for case in read_contacts(path, template).cases]
     assert [one.load for one in problems] == pytest.approx([1e5, 2.5e5])
+
+
+def test_rows_may_be_numbered(tmp_path, template):
+    path = tmp_path / "list.csv"
+    path.write_text("no,load [N]\n1,20\n2,30\n")
+    assert [case.problem.title for case in read_contacts(path, template).cases] == ["1", "2"]
+    frame = pd.DataFrame({"id": [7, 8], "load [N]": [20.0, 30.0]})
+    found = contacts_of(frame, *template_tables(template))
+    assert [case.problem.title for case in found.cases] == ["7", "8"]
 
 
 def test_a_row_that_states_another_key_removes_that_of_the_template(template):

@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
 TEMPLATE = "ball-on-disc"
 """The template of a list that has none."""
+TITLE = "title"
+"""Key of a text, which numbers of rows are too."""
 ROW_SECONDS = 60.0
 """Time after which no finer grid is started for a contact, if it states none."""
 
@@ -246,7 +248,7 @@ def stated_in(columns: Sequence[Column], cells: Sequence[Any]) -> dict[str, Any]
         Of the row, in the same order; None is empty.
     """
     return {
-        one.key: _value(cell, one.unit)
+        one.key: str(cell) if one.key == TITLE else _value(cell, one.unit)
         for one, cell in zip(columns, cells, strict=True)
         if one.key is not None and cell is not None
     }
