@@ -1,14 +1,13 @@
 """A study whose cases are solved at once, and the command that runs it."""
 
-import sys
 from dataclasses import replace
-from types import SimpleNamespace
+from functools import partial
 
 import pytest
 
-from tehl import cli
 from tehl.result.solution import Cost, Hint
 from tehl.studies import Row, runner
+from tests.cli.ball import CASE
 
 STUDY = """
 title = "Loads"
@@ -19,22 +18,6 @@ linspace = ["20 N", "80 N", 4]
 [[axes]]
 path = "contact.slide_roll_ratio"
 values = [0.0, 0.5]
-"""
-
-
-CASE = """
-title = "Ball"
-[contact]
-radius = "20 mm"
-load = "80 N"
-entrainment_speed = "1.5 m/s"
-[surface_1]
-material = "steel"
-[surface_2]
-material = "steel"
-[lubricant]
-viscosity = { law = "roelands", eta_0 = "0.04 Pa s", alpha = "22 1/GPa" }
-density = { law = "dowson-higginson", rho_0 = "890 kg/m^3" }
 """
 
 
@@ -64,16 +47,5 @@ def folder(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def run(monkeypatch, capsys):
-    def call(*words: str) -> SimpleNamespace:
-        monkeypatch.setattr(sys, "argv", ["tehl", "study", *words])
-        with pytest.raises(SystemExit) as end:
-            cli.main()
-        captured = capsys.readouterr()
-        return SimpleNamespace(code=end.value.code or 0, out=captured.out, err=captured.err)
-
-    return call
-
-
-def names(folder) -> list[str]:
-    return sorted(path.name for path in folder.iterdir())
+def run(run):
+    return partial(run, "study")

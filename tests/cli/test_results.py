@@ -1,29 +1,14 @@
 """``tehl plot``, ``export`` and ``report``: stored results in, files out."""
 
-import sys
 from dataclasses import asdict
-from types import SimpleNamespace
 
 import pytest
 
-from tehl import cli
 from tehl.cli.reference_runs import smooth_beside, smooth_file
 from tehl.io.store import save
 from tehl.plots import film_map
 from tehl.post.micro_film import roughness_effect
 from tests.fixtures_transient import make_transient
-
-
-@pytest.fixture
-def run(monkeypatch, capsys):
-    def call(*words: str) -> SimpleNamespace:
-        monkeypatch.setattr(sys, "argv", ["tehl", *words])
-        with pytest.raises(SystemExit) as end:
-            cli.main()
-        captured = capsys.readouterr()
-        return SimpleNamespace(code=end.value.code or 0, out=captured.out, err=captured.err)
-
-    return call
 
 
 @pytest.fixture

@@ -13,29 +13,13 @@ from types import SimpleNamespace
 import h5netcdf
 import pytest
 
-from tehl import cli
 from tehl.api.results import load
 from tehl.io import store
 from tehl.result.solution import Hint, Status
+from tests.cli.ball import CASE, names
 from tests.cli.fixtures_solver import solver
 
 __all__ = ["solver"]
-
-CASE = """
-title = "Ball"
-[contact]
-radius = "20 mm"
-load = "80 N"
-entrainment_speed = "1.5 m/s"
-[surface_1]
-material = "steel"
-[surface_2]
-material = "steel"
-[lubricant]
-viscosity = { law = "roelands", eta_0 = "0.04 Pa s", alpha = "22 1/GPa" }
-density = { law = "dowson-higginson", rho_0 = "890 kg/m^3" }
-"""
-
 
 THERMAL = (
     CASE.replace('"22 1/GPa" }', '"22 1/GPa", gamma = "0.042 1/K" }')
@@ -72,22 +56,6 @@ def wavy(warm):
     (warm / "wavy.toml").write_text(ROUGH)
     (warm / "both.toml").write_text(BOTH)
     return warm
-
-
-@pytest.fixture
-def run(monkeypatch, capsys):
-    def call(*words: str) -> SimpleNamespace:
-        monkeypatch.setattr(sys, "argv", ["tehl", *words])
-        with pytest.raises(SystemExit) as end:
-            cli.main()
-        captured = capsys.readouterr()
-        return SimpleNamespace(code=end.value.code or 0, out=captured.out, err=captured.err)
-
-    return call
-
-
-def names(folder) -> list[str]:
-    return sorted(path.name for path in folder.iterdir())
 
 
 def test_the_option_for_stress_states_its_table_and_keeps_one_that_is_stated(folder, run, solver):

@@ -14,7 +14,8 @@ from tehl.io.templates import template_text, templates
 from tehl.studies import runner
 from tehl.studies.file import read_study
 from tehl.studies.plan import locked, study_of
-from tests.cli.fixtures_study import CASE, STUDY, folder, names, run, solved
+from tests.cli.ball import CASE, names
+from tests.cli.fixtures_study import STUDY, folder, run, solved
 
 __all__ = ["folder", "run"]
 

@@ -6,7 +6,8 @@ import pytest
 from tehl.result.solution import Hint
 from tehl.studies import Row, runner
 from tehl.studies.file import read_study
-from tests.cli.fixtures_study import CASE, STUDY, folder, names, run
+from tests.cli.ball import CASE, names
+from tests.cli.fixtures_study import STUDY, folder, run
 
 __all__ = ["folder", "run"]
 

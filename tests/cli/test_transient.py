@@ -8,18 +8,17 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import tehl
-from tehl import cli
 from tehl.api.results import ConvergenceError
 from tehl.cli.checkpoint import STEPS, Keeper
 from tehl.io.checkpoint import Fingerprint
 from tehl.plots import animation
 from tehl.result.solution import Hint, Status
+from tests.cli.ball import names
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_certified, make_transient
 
@@ -54,22 +53,6 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "wave.toml").write_text(CASE)
     return tmp_path
-
-
-@pytest.fixture
-def run(monkeypatch, capsys):
-    def call(*words: str) -> SimpleNamespace:
-        monkeypatch.setattr(sys, "argv", ["tehl", *words])
-        with pytest.raises(SystemExit) as end:
-            cli.main()
-        captured = capsys.readouterr()
-        return SimpleNamespace(code=end.value.code or 0, out=captured.out, err=captured.err)
-
-    return call
-
-
-def names(folder) -> list[str]:
-    return sorted(path.name for path in folder.iterdir())
 
 
 def equal(one: tehl.TransientResult, other: tehl.TransientResult) -> bool:
