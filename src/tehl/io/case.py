@@ -41,22 +41,7 @@ Model = TypeVar("Model", bound=BaseModel)
 def read_case_and_options(
     path: str | Path, overrides: Sequence[str] = ()
 ) -> tuple[ContactProblem, Options]:
-    """Return problem and numerical options of a case file.
-
-    Parameters
-    ----------
-    path : str or Path
-        TOML file.
-    overrides : sequence of str
-        Overrides such as ``"numerics.points=513"`` or ``"contact.load=100 N"``, applied before
-        anything is checked.
-
-    Raises
-    ------
-    InputError
-        If the file is not a valid case file or an override is invalid; the message names key,
-        value, unit and what is expected.
-    """
+    """Return problem and numerical options of a case file: see `tehl.api.problem`."""
     try:
         tables = toml_tables(Path(path))
         for override in overrides:

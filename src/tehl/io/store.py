@@ -126,15 +126,7 @@ def _write(file: "h5netcdf.File", variable: Variable) -> None:
 
 
 def load(path: str | Path) -> Solution | TransientSolution:
-    """Read a result that :func:`save` wrote, with its fields bit by bit; nothing is compiled.
-
-    Raises
-    ------
-    InputError
-        If the file does not exist.
-    FileFormatError
-        If it is truncated, foreign or of an unknown format.
-    """
+    """Read a result that :func:`save` wrote, with its fields bit by bit: see `tehl.load`."""
     source = Path(path)
     arrays, attrs = _read(source)
     _check_kind(source, attrs)
@@ -153,22 +145,7 @@ def load(path: str | Path) -> Solution | TransientSolution:
 
 
 def load_as(kind: type[Kind], path: str | Path) -> Kind:
-    """Read a result of one kind, `Result` or `TransientResult`.
-
-    Parameters
-    ----------
-    kind : type
-        `Solution` or `TransientSolution`.
-    path : str or Path
-        A file that :func:`save` wrote.
-
-    Raises
-    ------
-    InputError
-        If the file does not exist.
-    FileFormatError
-        If it is not a result, or one of the other kind.
-    """
+    """Read a `Solution` or a `TransientSolution`: see `tehl.load`; another kind is an error."""
     result = load(path)
     if isinstance(result, kind):
         return result

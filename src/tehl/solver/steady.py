@@ -156,30 +156,7 @@ def solve(
 ) -> Solution:
     """Solve a steady contact between bodies of stated temperatures, by full multigrid.
 
-    Parameters
-    ----------
-    problem : ContactProblem
-        The contact in SI.
-    options : Options
-        Numerical options; the defaults if left out.
-    guess : Solution
-        The film of a similar contact. The finest grid starts from it if ``options.accuracy`` is
-        "tight" and its residual is much smaller than that of the interpolated coarser film; at
-        other accuracies it saves nothing. The result is the same, to the tolerance.
-    monitor : Monitor
-        Receives the report of each cycle.
-
-    Returns
-    -------
-    Solution
-        Film and pressure with estimated errors.
-
-    Raises
-    ------
-    ConvergenceError
-        When the solver did not converge; its ``result`` is the last finite state.
-    InputError
-        When the grid does not fit into the memory, or a measured surface cannot be read.
+    Parameters, result and errors are those of `tehl.solver.physics.bodies.solve`.
     """
     options = settled(problem, options or Options())
     others = (

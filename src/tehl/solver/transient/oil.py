@@ -119,7 +119,42 @@ def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
     return held, steady_flux(level.film, held, level.grid.dx, order)
 
 
-class Squeeze:
+class _Rate:
+    """Rate of a mass q that the step of the film leaves out, from q of the last steps."""
+
+    steady: Array
+
+    def begin(self, rate: Array) -> None:
+        """Begin with the steady q and its rate."""
+        self.past = np.stack([self.steady, self.steady])
+        self.now, self.rate = self.steady, rate
+
+    def onward(self) -> Array | float:
+        """Return the rate at the start of a step, with q extrapolated linearly in time."""
+        if not self.steady.size:
+            return 0.0
+        self.now = 2.0 * self.past[0] - self.past[1]
+        self.rate = self._rate(self.now)
+        return self.rate
+
+    def update(self, now: Array) -> Array:
+        """Set q of the present film, (ny, nx); return the change of its rate."""
+        rate = self._rate(now)
+        more = rate - self.rate
+        self.now, self.rate = now, rate
+        return more
+
+    def advance(self) -> None:
+        """Accept the present q as the previous one of the next step."""
+        self.past[1] = self.past[0]
+        self.past[0] = self.now
+
+    def _rate(self, now: Array) -> Array:
+        """Return the rate of the present q."""
+        raise NotImplementedError
+
+
+class Squeeze(_Rate):
     """Correction of the squeeze of heated films: subtracts dq/dt with q = (rho* - rho_e) H.
 
     A heated film carries rho* H and stores rho_e H (docs/theory/numerics-thermal.md),
@@ -150,28 +185,7 @@ class Squeeze:
     ) -> None:
         (self.time_step, self.spacing, self.stride), self.wedge_order = step, wedge_order
         self.steady = mass[:0] if excess is None else excess * mass
-        self.past = np.stack([self.steady, self.steady])
-        self.now, self.rate = self.steady, np.zeros_like(self.steady)
-
-    def onward(self) -> Array | float:
-        """Return dq/dt at the start of a step, with q extrapolated linearly in time."""
-        if not len(self.steady):
-            return 0.0
-        self.now = 2.0 * self.past[0] - self.past[1]
-        self.rate = self._rate(self.now)
-        return self.rate
-
-    def update(self, excess: Array) -> Array:
-        """Set q of the present film, (ny, nx); return the change of dq/dt."""
-        rate = self._rate(excess)
-        more = rate - self.rate
-        self.now, self.rate = excess, rate
-        return more
-
-    def advance(self) -> None:
-        """Accept the present q as the previous one of the next step."""
-        self.past[1] = self.past[0]
-        self.past[0] = self.now
+        self.begin(np.zeros_like(self.steady))
 
     def _rate(self, now: Array) -> Array:
         """Return dq/dt of the present q."""
@@ -192,7 +206,7 @@ def _part(excess: Array, sign: int) -> Array:
     return np.maximum(excess, 0.0) if sign > 0 else np.minimum(excess, 0.0)
 
 
-class Lead:
+class Lead(_Rate):
     """The same of films whose motion varies: they carry rho_e H, of the oil that they store.
 
     The flux by the motion of both surfaces leads that of the mean motion u by q = F H - u rho_e H,
@@ -214,37 +228,20 @@ class Lead:
     ) -> None:
         self.spacing, self.wedge_order, self.follows = spacing, wedge_order, follows
         self.follow(np.zeros((0, 0)) if lead is None else lead)
-        self.past = np.stack([self.steady, self.steady])
-        self.now, self.rate = self.steady, -self.own
+        self.begin(-self.own)
 
     def follow(self, steady: Array) -> None:
         """Take another q, (ny, nx), as the one that keeps its own difference."""
         self.steady = steady
         self.own = steady_wedge(steady, self.spacing, self.wedge_order) if steady.size else steady
 
-    def onward(self) -> Array | float:
-        """Return -dq/dx at the start of a step, with q extrapolated linearly in time."""
-        if not self.steady.size:
-            return 0.0
-        self.now = 2.0 * self.past[0] - self.past[1]
-        self.rate = self._rate(self.now)
-        return self.rate
-
-    def update(self, lead: Array) -> Array:
-        """Set q of the present film, (ny, nx); return the change of -dq/dx."""
-        rate = self._rate(lead)
-        more = rate - self.rate
-        self.now, self.rate = lead, rate
-        return more
-
     def advance(self) -> None:
-        """Accept the present q as the previous one of the next step."""
-        self.past[1] = self.past[0]
-        self.past[0] = self.now
+        """Accept the present q as the previous one of the next step, and follow it."""
+        super().advance()
         if self.follows and self.steady.size:
             self.follow(self.steady + self.follows * (self.now - self.steady))
 
-    def _rate(self, lead: Array) -> Array:
+    def _rate(self, now: Array) -> Array:
         """Return -dq/dx: the steady film keeps its own difference, the change has a central one."""
-        change = np.gradient(lead - self.steady, self.spacing, axis=1)
+        change = np.gradient(now - self.steady, self.spacing, axis=1)
         return np.asarray(-self.own - change)
