@@ -184,10 +184,13 @@ def test_a_contact_that_spreads_as_it_heats_is_followed_to_its_end():
 
 
 def test_the_oil_stays_balanced_while_heat_and_thinning_still_change():
-    """Oil that is solved again at a fixed film, as the heat goes on, loses the load."""
+    """Oil that is solved again at a fixed film, as the heat goes on, loses the load.
+
+    On 65 nodes the film errs by a half, and by its last digits too much to be a result.
+    """
     _, _, problem = any_contacts.contact(1, 87, tables_at_once=True)
     steady = problem.model_copy(update={"transient": None})
-    found = solve(steady, Options(points=65, accuracy="tight", tolerance=1e-7))
+    found = solve(steady, Options(points=97, accuracy="tight", tolerance=1e-7))
     assert found.status.converged
     assert abs(found.history[-1].load_error) < 1e-9
 
