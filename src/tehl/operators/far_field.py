@@ -25,8 +25,9 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 from tehl.operators.upstream import EdgeSlopes, UpstreamField
 
-ANGLES = 1025
-"""Nodes of f over the angle; the error of its values is below 1e-4 of its maximum."""
+ANGLES, COARSER_ANGLES = 1025, (65, 257)
+"""Nodes of f over the angle; the error of its values is below 1e-4 of its maximum. Fewer, on which
+the cavitation front is found first: it moves by some nodes per step."""
 Edge = tuple[slice, int] | tuple[int, slice]
 """Index of the nodes on one edge."""
 MOST_FRONTS = 200
@@ -55,6 +56,11 @@ class Gap(NamedTuple):
         cosine, sine = np.cos(angle), np.sin(angle)
         growth: Array = cosine**2 + self.ratio * sine**2
         return growth + 2.0 * self.twist * cosine * sine if self.twist else growth
+
+    def opening(self, angle: Array) -> Array:
+        """Return dg/da at some angles."""
+        double = 2.0 * angle
+        return np.asarray((self.ratio - 1.0) * np.sin(double) + 2.0 * self.twist * np.cos(double))
 
     def place(self, x: float | Array, y: float | Array) -> Array:
         """Return the angles of places within the range of `angles`.
@@ -97,21 +103,23 @@ def angular_pressure(gap: Gap) -> tuple[Array, Array]:
     """Return the angles of a gap, (n,), and the pressure f at them.
 
     The cavitation front follows from an active set: a node is wet as long as f > 0, a dry one
-    becomes wet where its equation would raise f.
+    becomes wet where its equation would raise f. It starts from that of fewer nodes.
     """
-    angle, to_last, to_next, conductance = _angular_operator(gap)
-    diagonal = -(to_next + to_last) - 9.0 * conductance
-    source = np.cos(angle)
-    if gap.twist:
-        source = source + gap.twist * np.sin(angle)
-    wet = source < 0.0
-    for _ in range(MOST_FRONTS):
-        f = _solve(to_last, diagonal, to_next, source, wet)
-        inflow = to_next * np.append(f[1:], 0.0) + to_last * np.append(0.0, f[:-1])
-        before, wet = wet, np.where(wet, f > 0.0, inflow > source)
-        if np.array_equal(before, wet):
-            break
-    return angle, np.where(wet, np.maximum(f, 0.0), 0.0)
+    angle = gap.angles(COARSER_ANGLES[0])
+    found = angle, np.maximum(-_wedge(gap, angle), 0.0)
+    for nodes in (*COARSER_ANGLES, ANGLES):
+        angle, to_last, to_next, conductance = _angular_operator(gap, nodes)
+        diagonal = -(to_next + to_last) - 9.0 * conductance
+        source = _wedge(gap, angle)
+        wet = np.interp(angle, *found) > 0.0
+        for _ in range(MOST_FRONTS):
+            f = _solve(to_last, diagonal, to_next, source, wet)
+            inflow = to_next * np.append(f[1:], 0.0) + to_last * np.append(0.0, f[:-1])
+            before, wet = wet, np.where(wet, f > 0.0, inflow > source)
+            if np.array_equal(before, wet):
+                break
+        found = angle, np.where(wet, np.maximum(f, 0.0), 0.0)
+    return found
 
 
 @lru_cache(maxsize=16)
@@ -121,15 +129,21 @@ def angular_squeeze(gap: Gap) -> Array:
     Where the gap opens at a rate dH/dt the pressure changes by P = -lambda q(a) dH/dt / r^4, with
     (g^3 q')' - 8 g^3 q = -8.
     """
-    angle, to_last, to_next, conductance = _angular_operator(gap)
+    angle, to_last, to_next, conductance = _angular_operator(gap, ANGLES)
     diagonal = -(to_next + to_last) - 8.0 * conductance
     wet = angular_pressure(gap)[1] > 0.0
     return _solve(to_last, diagonal, to_next, np.full(angle.size, -8.0), wet)
 
 
-def _angular_operator(gap: Gap) -> tuple[Array, Array, Array, Array]:
+def _wedge(gap: Gap, angle: Array) -> Array:
+    """Return cos a + t sin a."""
+    source: Array = np.cos(angle)
+    return source + gap.twist * np.sin(angle) if gap.twist else source
+
+
+def _angular_operator(gap: Gap, nodes: int) -> tuple[Array, Array, Array, Array]:
     """Return the angles, both neighbours in (g^3 f')' and g^3, (n,) each."""
-    angle = gap.angles(ANGLES)
+    angle = gap.angles(nodes)
     step = angle[1] - angle[0]
     conductance = gap.growth(angle) ** 3
     between = 0.5 * (conductance[1:] + conductance[:-1]) / step**2
