@@ -80,8 +80,10 @@ def work_error(result: Solution) -> float | None:
     Over the larger of both. Forces and heat follow from different equations, which agree where the
     mesh resolves the film. None for an isothermal run.
     """
+    if result.heat is None:
+        return None
     forces = traction(result)
-    if result.heat is None or forces is None:
+    if forces is None:
         return None
     made = result.heat.balance.shear + result.heat.balance.compression
     power = forces.friction_power + _pumped_in(result, result.heat)
