@@ -10,6 +10,7 @@ import tehl
 from tehl.contact.options import Domain
 from tehl.contact.supply import Supply
 from tehl.operators.loaded_zone import zone_part
+from tehl.post import surroundings
 from tehl.post.traction import under_pressure
 from tests.cases import moes_problem
 from tests.fixtures_result import CASE, make_result
@@ -127,6 +128,19 @@ def test_the_drag_of_the_surroundings_does_not_depend_on_the_domain(thick_films)
     assert near.radius == pytest.approx(0.5 * thick_films[0].problem.radius_x)
     # most of it is drag on both surfaces: three times that of the loaded zone
     assert 2.5 < near.mid_film / thick_films[0].traction.mid_film < 4.0
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.7])
+def test_the_drag_of_the_surroundings_does_not_depend_on_its_nodes(monkeypatch, angle):
+    """A ball on a raceway, whose gap hardly opens along y."""
+    radii = {"radius_x": 0.01, "radius_y": 0.2, "entrainment_angle": angle}
+    problem = moes_problem(10.0, 5.0, **radii)
+    result = tehl.solve(problem, tehl.Options(points=65))
+    outer = 100.0
+    found = surroundings._beyond(result, outer)
+    monkeypatch.setattr(surroundings, "RAYS", 3 * surroundings.RAYS)
+    monkeypatch.setattr(surroundings, "RINGS", 3 * surroundings.RINGS)
+    assert found == pytest.approx(surroundings._beyond(result, outer), rel=1e-4)
 
 
 def test_starved_films_have_no_flooded_surroundings(sheared):
