@@ -142,8 +142,9 @@ UNCOMBINED = Strategy(relaxation=FRONTS, damping=0.5, patience=3, early=True)
 THIRD_ORDER_STRATEGIES = 2
 """Strategies that are tried with a wedge of third order before one of second order."""
 COMBINED_CYCLES = 3
-"""Earlier cycles combined where heat and thinning are damped: 8 replace 13 on the finest grid of
-bearings with M = 8,000. Between asperities it takes more cycles; with a wedge of second order, the
+"""Earlier cycles combined where nodes change by small steps, or heat and thinning by a part: 8
+replace 13 on the finest grid of thinning bearings with M = 8,000, 12 replace 21 of an isothermal
+one with M = 109,000. Between asperities it takes more cycles; with a wedge of second order, the
 last resort, steep spikes (L = 29) diverge."""
 STEEP_SPEED = 13.0
 """Moes speed L above which `UNCOMBINED` comes before the combined cycles. Nine contacts of machines
@@ -202,7 +203,7 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
     if problem.asperities is not None:
         return (*thin, *rungs[: THIRD_ORDER_STRATEGIES + 1], *steep, *second)
     third = tuple(
-        replace(one, memory=COMBINED_CYCLES) if one.damping < 1.0 else one
+        replace(one, memory=COMBINED_CYCLES) if one.relaxation.stiff else one
         for one in rungs[:THIRD_ORDER_STRATEGIES]
     )
     first = 1 if scaled.groups.L > STEEP_SPEED else THIRD_ORDER_STRATEGIES

@@ -107,9 +107,11 @@ class Cycles:
         self.step: Callable[[], object] = self.cycle
         if visit.damping < 1.0:
             memory = min(memory, DAMPED_MEMORY)
-        is_damped = visit.is_damped and not visit.roughness.is_rough
+        # before heat or thinning begin, the flow is another one
+        begun = visit.damping == 1.0 or visit.is_damped
+        is_smooth = begun and not visit.roughness.is_rough
         combines = visit.is_rough or (
-            (fine.share.combines or is_damped) and not fine.cavity.is_balanced
+            (fine.share.combines or is_smooth) and not fine.cavity.is_balanced
         )
         self.anderson = Anderson(memory) if memory and combines else None
         self.before = np.zeros(0)
