@@ -8,6 +8,7 @@ import pytest
 
 from tehl.kernels.properties import Factors, Heated
 from tehl.result.solution import CycleReport
+from tehl.solver.cycle.relaxation import STEEP, THIN, Relaxation
 from tehl.solver.judging.convergence import (
     LEAST_CONVERGENCE_RATE,
     LEAST_CYCLES,
@@ -303,3 +304,13 @@ def report(cycle: int, residual: float) -> CycleReport:
     """Return the report of a cycle, with nothing but a residual."""
     zeros = dict.fromkeys(("change", "load_error", "film_central", "film_minimum"), 0.0)
     return CycleReport(points=(33, 33), cycle=cycle, residual=residual, smoother="fast", **zeros)
+
+
+@pytest.mark.parametrize("relaxation", [STEEP, THIN])
+def test_small_steps_do_not_pass_for_convergence(relaxation: Relaxation) -> None:
+    """A change that falls to a tenth may be followed by slow ones, which small steps hide."""
+    trace = GridTrace(rate=relaxation.rate)
+    for film in (1.0, 1.1, 1.11):
+        trace.note(film, film)
+    assert trace.central.iteration_error() >= 0.01
+    assert GridTrace().least_cycles <= trace.least_cycles

@@ -97,6 +97,7 @@ class GridIteration:
         trace = GridTrace(
             largest_change=method.largest_change,
             damping=self.coupling.damping,
+            rate=self.strategy.relaxation.rate,
             negligible=self._negligible(),
             steady=method.steady,
             part=EXTRAPOLATED_PART if self.options.extrapolate else 1.0,

@@ -146,6 +146,9 @@ COMBINED_CYCLES = 3
 replace 13 on the finest grid of thinning bearings with M = 8,000, 12 replace 21 of an isothermal
 one with M = 109,000. Between asperities it takes more cycles; with a wedge of second order, the
 last resort, steep spikes (L = 29) diverge."""
+COMBINED_LOAD = 1e3
+"""Moes load M of an isothermal contact from which they are: the first changes of a thick film (M =
+1) on coarse grids lead away from it."""
 STEEP_SPEED = 13.0
 """Moes speed L above which `UNCOMBINED` comes before the combined cycles. Nine contacts of machines
 whose first strategy fails take 0.75 of the CPU time by this and by going on from solved grids."""
@@ -202,8 +205,9 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
     steep = (UNCOMBINED,) if problem.is_coupled else ()
     if problem.asperities is not None:
         return (*thin, *rungs[: THIRD_ORDER_STRATEGIES + 1], *steep, *second)
+    combines = problem.is_coupled or scaled.groups.M > COMBINED_LOAD
     third = tuple(
-        replace(one, memory=COMBINED_CYCLES) if one.relaxation.stiff else one
+        replace(one, memory=COMBINED_CYCLES) if combines and one.relaxation.stiff else one
         for one in rungs[:THIRD_ORDER_STRATEGIES]
     )
     first = 1 if scaled.groups.L > STEEP_SPEED else THIRD_ORDER_STRATEGIES

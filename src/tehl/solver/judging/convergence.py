@@ -131,13 +131,13 @@ class GridTrace:
 
     ``measured`` has further values after the last cycle (`tehl.solver.judging.measures`).
     ``damping`` is the damping factor of heat and thinning between rough surfaces, 1 is undamped: no
-    convergence rate is below 1 - damping. ``negligible`` is the relative iteration error of the
-    film that is always accepted. Without a coarser film to compare, a mean change of ``steady`` is
-    accepted: where surfaces touch, single nodes change by more, and ``largest_change`` is that of
-    the mean. A grid on which the iteration ``diverged`` is not compared with others. ``outputs``
-    are the fields to extrapolate; then the iteration error may be ``part`` of what it may be
-    without. ``coupled`` says whether the film is heated or thins on this grid. ``columns`` are its
-    nodes along x, 0 if they do not matter.
+    convergence rate is below 1 - damping, or below ``rate``. ``negligible`` is the relative
+    iteration error of the film that is always accepted. Without a coarser film to compare, a mean
+    change of ``steady`` is accepted: where surfaces touch, single nodes change by more, and
+    ``largest_change`` is that of the mean. A grid on which the iteration ``diverged`` is not
+    compared with others. ``outputs`` are the fields to extrapolate; then the iteration error may be
+    ``part`` of what it may be without. ``coupled`` says whether the film is heated or thins on this
+    grid. ``columns`` are its nodes along x, 0 if they do not matter.
     """
 
     central: Trace = field(default_factory=Trace)
@@ -149,6 +149,7 @@ class GridTrace:
     largest_change: float = LARGEST_CYCLE_CHANGE
     least_cycles: int = LEAST_CYCLES
     damping: float = 1.0
+    rate: float = 0.0
     negligible: float = 0.0
     steady: float = 0.0
     diverged: bool = False
@@ -158,9 +159,10 @@ class GridTrace:
     columns: int = 0
 
     def __post_init__(self) -> None:
-        self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / self.damping))
+        rate = max(self.rate, 1.0 - self.damping)
+        self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / (1.0 - rate)))
         for trace in (self.central, self.minimum, self.rise, self.touching):
-            trace.least_rate = max(LEAST_CONVERGENCE_RATE, 1.0 - self.damping)
+            trace.least_rate = max(LEAST_CONVERGENCE_RATE, rate)
 
     def note(self, central: float, minimum: float) -> None:
         """Append the film before the first cycle.
