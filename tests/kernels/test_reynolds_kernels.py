@@ -96,8 +96,8 @@ def test_the_factors_of_a_heated_film_give_its_mobility_and_density_back():
     heated = properties.Heated(*(0.2 + field for field in others[:5]))
     heated.over_exponent[:] /= 4.0
     film = properties.Film(p, h, *np.empty((5, 4, 11)))
-    factors = properties.Factors(*np.empty((5, 4, 11)))
-    properties.factors_of(heated, film._replace(h=np.ones_like(h)), flow, factors)
+    factors, thickness = properties.Factors(*np.empty((7, 4, 11))), film.conducting(0.5)
+    properties.factors_of(heated, film._replace(h=np.ones_like(h)), flow, thickness, factors)
     properties.heated_properties(film, factors, flow, 0.5)
     cube = np.maximum(h, 0.5) ** 3
     np.testing.assert_allclose(film.eps, heated.mobility * cube, rtol=1e-12)
@@ -107,6 +107,45 @@ def test_the_factors_of_a_heated_film_give_its_mobility_and_density_back():
     cold = isotropic(p, h, *np.empty((3, 4, 11)))
     properties.properties(cold, flow, 0.5)
     np.testing.assert_allclose(film.drho, cold.drho * heated.density / cold.rho, rtol=1e-12)
+
+
+def test_the_tangent_of_a_thinning_film_is_the_derivative_of_its_flow():
+    """By slope, film and pressure, for an Eyring oil that rolls, of which the flow is known.
+
+    With x the stress at the wall over that of Eyring the mobility is 3 (x cosh x - sinh x)/x^3 over
+    the viscosity, here exp(p).
+    """
+    film = np.linspace(0.3, 6.0, 8)
+    slope, pressure = np.ones(8), 0.7 * film
+
+    def flow_at(slope, film, pressure):
+        x = slope * film
+        thinning = 3.0 * (x * np.cosh(x) - np.sinh(x)) / x**3
+        return np.exp(-pressure) * thinning * film**3 * slope
+
+    x = slope * film
+    stretch = x**2 * np.sinh(x) / (x * np.cosh(x) - np.sinh(x)) - 2.0  # dln flow / dln slope
+    mobility = flow_at(slope, film, pressure) / (film**3 * slope)
+    ones, rows, step = np.ones((1, 8)), np.arange(400) * 0.02, 0.02
+    table = np.column_stack([np.exp(-rows), -step * np.exp(-rows)])
+    law = properties.FlowTable(table, linear(rows, step), step)
+    heated = properties.Heated(mobility[None], ones, ones, stretch[None], ones)
+    level = isotropic(*np.array([pressure, film])[:, None], *np.empty((3, 1, 8)))
+    level = level._replace(eps_x=np.empty((1, 8)), eps_y=np.empty((1, 8)))
+    factors = properties.Factors(*np.empty((7, 1, 8)))
+    at_one = level._replace(h=ones)
+    properties.factors_of(heated, at_one, law, level.conducting(0.0), factors)
+
+    def tangent(slope, film, pressure):
+        level.p[:], level.h[:] = pressure, film
+        properties.heated_properties(level, factors, law, 0.0)
+        return level.eps_x[0] * slope
+
+    here = {"slope": slope, "film": film, "pressure": pressure}
+    for name, value in here.items():
+        there = here | {name: value * (1.0 + 1e-6)}
+        exact = flow_at(**there) - flow_at(**here)
+        np.testing.assert_allclose(tangent(**there) - tangent(**here), exact, rtol=2e-5)
 
 
 def test_a_broken_pressure_is_not_passed_over():

@@ -139,14 +139,18 @@ def test_a_film_of_third_order_has_little_more_than_the_bar_to_expect(
     assert estimate.discretisation_minimum == pytest.approx(bar)
 
 
+def factors(*values: float) -> Factors:
+    """Return factors of one node: rest, mobility, density and stretches; the film counts whole."""
+    return Factors(*(np.array([value]) for value in (*values, 1.0, 0.0)))
+
+
 def test_damped_factors_converge_to_the_new_ones() -> None:
     """Damped in their logarithms, the whole mobility at the pressure of the new sweep."""
-    old = Factors(*(np.array([value]) for value in (0.0, 1.0, 1.0, 1.0, 2.0)))
-    new = Factors(*(np.array([value]) for value in (0.5, 1.0, 0.9, 1.2, 2.0)))
+    old, new = factors(0.0, 1.0, 1.0, 1.0, 2.0), factors(0.5, 1.0, 0.9, 1.2, 2.0)
     mobility = np.array([0.5])
     half = damped(old, new, mobility, 0.5)
     assert half.rest + half.mobility * mobility == pytest.approx(0.5**0.5)
-    np.testing.assert_allclose(np.ravel(half[2:]), [0.9**0.5, 1.2**0.5, 2.0])
+    np.testing.assert_allclose(np.ravel(half[2:]), [0.9**0.5, 1.2**0.5, 2.0, 1.0, 0.0])
     for _ in range(60):
         old = damped(old, new, mobility, 0.3)
     np.testing.assert_allclose(np.ravel(old), np.ravel(new), rtol=1e-8)
@@ -154,7 +158,7 @@ def test_damped_factors_converge_to_the_new_ones() -> None:
 
 def test_a_film_behind_its_heat_is_driven_by_a_part_of_the_slope_until_it_has_caught_up() -> None:
     """Of a flow as the cube of the slope, that part at which the oil flows as the film does."""
-    new = Factors(*(np.array([value]) for value in (0.0, 1.2, 1.0, 3.0, 1.0)))
+    new = factors(0.0, 1.2, 1.0, 3.0, 1.0)
     old, lag = new._replace(mobility=np.array([1.0])), Lag(0.5, heats=True)
     old, ones = lag.damped(old, new, np.ones(1)), np.ones(1)
     assert lag.part is not None
@@ -169,8 +173,7 @@ def test_a_film_behind_its_heat_is_driven_by_a_part_of_the_slope_until_it_has_ca
 
 def test_a_sweep_changes_the_factors_by_a_limited_step() -> None:
     """The gradient of a pressure not in balance may ask for 1e9 times the mobility."""
-    old = Factors(*(np.array([value]) for value in (0.0, 1.0, 1.0, 1.0, 1.0)))
-    new = Factors(*(np.array([value]) for value in (3e8, 1e9, 1.0, 20.0, 0.1)))
+    old, new = factors(0.0, 1.0, 1.0, 1.0, 1.0), factors(3e8, 1e9, 1.0, 20.0, 0.1)
     step = damped(old, new, np.array([1.0]), 1.0)
     assert step.rest + step.mobility == pytest.approx(np.exp(LARGEST_LOG_STEP))
     assert step.stretch_x == pytest.approx(np.exp(LARGEST_LOG_STEP))

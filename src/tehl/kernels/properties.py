@@ -74,12 +74,18 @@ class Film(NamedTuple):
     south: Array = np.zeros(0)
     north: Array = np.zeros(0)
 
+    def conducting(self, floor: float) -> Array:
+        """Return the thickness that conducts along x, at least ``floor``, (ny, nx)."""
+        found: Array = np.maximum(self.channel if self.channel.size else self.h, floor)
+        return found
+
 
 class Factors(NamedTuple):
     """Effect of heat and shear thinning on the flow, each (ny, nx).
 
     The mobility is ``rest`` plus ``mobility`` times the isothermal Newtonian one; the tangent
-    mobilities are ``stretch_x`` and ``stretch_y`` times that; ``density`` is a factor too
+    mobilities are ``stretch_x`` and ``stretch_y`` times that; ``density`` is a factor too. The cube
+    of the film counts as ``part`` of its own plus ``kept``, the rest of that of the last sweep
     (docs/theory/numerics-thermal.md, coupling with the film).
     """
 
@@ -88,6 +94,13 @@ class Factors(NamedTuple):
     density: Array
     stretch_x: Array
     stretch_y: Array
+    part: Array
+    kept: Array
+
+    def growing(self, thickness: Array) -> Array:
+        """Return the part of the conductance that grows as the cube of a thickness, (ny, nx)."""
+        own: Array = self.part * thickness**3
+        return own / (own + self.kept)
 
 
 class Heated(NamedTuple):
@@ -168,18 +181,29 @@ def shape_line(film: Film, eps_y: Array, j: int) -> None:
 
 
 @kernel
-def factors_of(heated: Heated, film: Film, flow: FlowTable, factors: Factors) -> None:
-    """Fill ``factors`` at the pressures ``film.p``; ``eps, rho, drho`` are overwritten."""
+def factors_of(
+    heated: Heated, film: Film, flow: FlowTable, thickness: Array, factors: Factors
+) -> None:
+    """Fill ``factors`` at the pressures ``film.p`` and ``thickness`` (ny, nx) of the film.
+
+    ``film.h`` is 1, so that ``eps`` is the mobility; ``eps, rho, drho`` are overwritten. A flow
+    that grows as the slope to the power s grows as H^(1 + 1/n + s) and falls as the viscosity to
+    the power 1/n, at a given slope. The tangent multiplies both by s, so their parts are over s.
+    """
     heated, film, flow, factors = raw((heated, film, flow, factors))
     for j in range(film.p.shape[0]):
         line_properties(film, flow, 0.0, j)
         for i in range(film.p.shape[1]):
-            mobility, part = heated.mobility[j, i], heated.over_exponent[j, i]
-            factors.rest[j, i] = mobility * (1.0 - part)
-            factors.mobility[j, i] = mobility * part / film.eps[j, i]
+            mobility, over_n = heated.mobility[j, i], heated.over_exponent[j, i]
+            over_s = 1.0 / max(heated.stretch_x[j, i], heated.stretch_y[j, i], 1.0)
+            factors.rest[j, i] = mobility * (1.0 - over_n * over_s)
+            factors.mobility[j, i] = mobility * over_n * over_s / film.eps[j, i]
             factors.density[j, i] = heated.density[j, i] / film.rho[j, i]
             factors.stretch_x[j, i] = heated.stretch_x[j, i]
             factors.stretch_y[j, i] = heated.stretch_y[j, i]
+            part = (1.0 + (1.0 + over_n) * over_s) / 3.0
+            factors.part[j, i] = part
+            factors.kept[j, i] = (1.0 - part) * thickness[j, i] ** 3
 
 
 @kernel
@@ -199,8 +223,9 @@ def _scale_line(film: Film, factors: Factors, floor: float, j: int) -> None:
     thickness = film.channel if film.channel.shape[0] > 0 else film.h
     for i in range(nx):
         thick = max(thickness[j, i], floor)
-        rest = factors.rest[j, i] * (thick * thick * thick)
-        film.eps[j, i] = factors.mobility[j, i] * film.eps[j, i] + rest
+        cube = thick * thick * thick
+        whole = factors.mobility[j, i] * film.eps[j, i] + factors.rest[j, i] * cube
+        film.eps[j, i] = whole * (factors.part[j, i] + factors.kept[j, i] / cube)
     for i in range(nx):
         film.rho[j, i] *= factors.density[j, i]
         film.drho[j, i] *= factors.density[j, i]

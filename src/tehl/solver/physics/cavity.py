@@ -12,7 +12,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.kernels import cavities, reynolds, transfer
-from tehl.kernels.properties import Factors, Film
+from tehl.kernels.properties import Factors, Film, Heated
 from tehl.operators.transfer import injected
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Smoother
@@ -83,7 +83,7 @@ class ZeroPressure:
     def mark(self, level: Wetted) -> None:
         """Mark what follows from the present film."""
 
-    def limit(self, level: Wetted, factors: Factors) -> None:
+    def limit(self, level: Wetted, factors: Factors | Heated) -> None:
         """Limit the effect of heat and thinning on relaxation where cavities demand it."""
 
     def held(self, level: Wetted) -> Array:
@@ -141,7 +141,7 @@ class Conserving(ZeroPressure):
         if not self.keeps_orders:
             set_orders(level)
 
-    def limit(self, level: Wetted, factors: Factors) -> None:
+    def limit(self, level: Wetted, factors: Factors | Heated) -> None:
         """Take no tangents beside partly filled nodes: these pass on the flow that comes."""
         near = level.film.partial > 0
         for _ in range(BESIDE_CAVITIES):

@@ -105,5 +105,6 @@ def damped(
 
     before, after = (one.rest + one.mobility * isothermal for one in (old, new))
     part = step(before, after) / after
-    others = (step(a, b) for a, b in zip(old[2:], new[2:], strict=True))
-    return properties.Factors(part * new.rest, part * new.mobility, *others)
+    names = ("density", "stretch_x", "stretch_y")
+    others = {name: step(getattr(old, name), getattr(new, name)) for name in names}
+    return new._replace(rest=part * new.rest, mobility=part * new.mobility, **others)

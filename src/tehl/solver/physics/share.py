@@ -153,7 +153,12 @@ class OilAlone:
         film, floor = level.film, self.equations.floor
         # eps grows as H^3 above the floor and is constant below it
         found: Array = np.where(film.h > floor, 3.0 * film.eps / np.maximum(film.h, floor), 0.0)
-        return found
+        return found * self.growing(level)
+
+    def growing(self, level: Carried) -> Array | float:
+        """Return the part of the conductance that grows as the cube of the film [-]."""
+        factors, thickness = level.factors, level.film.conducting(self.equations.floor)
+        return 1.0 if factors is None else factors.growing(thickness)
 
     def changed(self, coarse: Carried) -> Array:
         """Return the pressure whose change a finer grid takes [-]."""

@@ -82,7 +82,7 @@ class Summits(OilAlone):
         """Return d eps/dH by the law of the channel."""
         film = level.film
         found: Array = 3.0 * film.eps * self.table.widening(level.separation) / film.channel
-        return found
+        return found * self.growing(level)
 
     def receive(self, level: Carried) -> None:
         """Evaluate the injected separation, and note what the asperities carry there."""

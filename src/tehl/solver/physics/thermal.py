@@ -396,13 +396,17 @@ class Coupling:
             heated.density[:] = state.view("mean_density").T
         heated.mobility[:] /= self.scaled.groups.lambda_bar
         self.lag.complete(heated)
-        factors = properties.Factors(*np.empty((5, *shape)))
-        # at H = 1 the conductance is the mobility: factors do not depend on the film
+        factors = properties.Factors(*np.empty((7, *shape)))
+        # at H = 1 the conductance is the mobility
         isothermal = properties.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
-        properties.factors_of(heated, isothermal, fine.equations.flow, factors)
+        fine.cavity.limit(fine, heated)
+        thickness = fine.film.conducting(fine.equations.floor)
+        properties.factors_of(heated, isothermal, fine.equations.flow, thickness, factors)
         before = fine.factors
         if before is None and self.damping < 1.0:
-            before = properties.Factors(np.zeros(shape), *np.ones((4, *shape)))  # isothermal
+            before = factors._replace(rest=np.zeros(shape), mobility=np.ones(shape))
+            ones = np.ones(shape)
+            before = before._replace(density=ones, stretch_x=ones, stretch_y=ones)
         fine.sources.drift = state.drift()
         if before is not None:
             bounded = fine.share.bounds_film
