@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from tehl.api.problem import case_from_tables
+from tehl.contact.heat import Thermal
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.supply import Supply
@@ -15,7 +16,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.solver import steady
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
-from tehl.solver.cycle.ladder import STARVED_DAMPING, UNCOMBINED, Strategy, ladder
+from tehl.solver.cycle.ladder import STARVED_DAMPING, UNCOMBINED, UNDAMPED, Strategy, ladder
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, FAST, THIN
 from tehl.solver.judging.convergence import DivergedError
@@ -150,12 +151,21 @@ def test_a_strategy_goes_on_from_the_grids_that_another_one_solved(
     assert found.errors.central == pytest.approx(usual.errors.central, rel=0.2)
 
 
-def test_scarce_oil_is_damped_more(hybrid_bearing: ContactProblem) -> None:
-    starved = hybrid_bearing.model_copy(update={"supply": Supply(ratio=0.6)})
-    rungs = (
-        ladder(ScaledProblem.of(one), OPTIONS, rough=False) for one in (starved, hybrid_bearing)
+def test_scarce_oil_is_tried_undamped_unless_heavily_loaded_and_is_damped_more(
+    hybrid_bearing: ContactProblem,
+) -> None:
+    def rungs(problem: ContactProblem, **tables: object) -> tuple[Strategy, ...]:
+        one = problem.model_copy(update=tables)
+        return ladder(ScaledProblem.of(one), OPTIONS, rough=False)
+
+    scarce, light = {"supply": Supply(ratio=0.6)}, moes_contact(50.0, 8.0)
+    light = light.model_copy(update={"thermal": Thermal()})
+    assert rungs(light, **scarce)[1] is UNDAMPED
+    assert UNDAMPED not in (*rungs(light), *rungs(hybrid_bearing, **scarce))
+    steep, less = (
+        next(one.damping for one in some if one.damping < 1.0)
+        for some in (rungs(hybrid_bearing, **scarce), rungs(hybrid_bearing))
     )
-    steep, less = (next(one.damping for one in some if one.damping < 1.0) for some in rungs)
     assert steep == STARVED_DAMPING < less
 
 

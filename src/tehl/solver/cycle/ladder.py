@@ -17,7 +17,6 @@ from tehl.solver.cycle.relaxation import (
     CAREFUL,
     DAMPED,
     FAST,
-    FRONTS,
     GAUSS_SEIDEL,
     LIMITED,
     ROBUST,
@@ -70,7 +69,8 @@ class Strategy:
             return "Newton's method (slow)"
         steps = ", with continuation in the sliding speed" if self.slide_in_steps else ""
         order = "" if self.wedge_order is None else ", with a wedge of second order"
-        return f"the {self.name} smoother{steps}{order}"
+        damped = "damped " if self.damping < 1.0 else ""
+        return f"the {damped}{self.name} smoother{steps}{order}"
 
 
 SMOOTH = (
@@ -136,7 +136,7 @@ TOUCHING = (
         patience=2,
     ),
 )
-UNCOMBINED = Strategy(relaxation=FRONTS, damping=0.5, patience=3, early=True)
+UNCOMBINED = Strategy(relaxation=BROAD, damping=0.5, patience=3, early=True)
 """Tried with a wedge of third order after the combined cycles, which overshoot at the steep fronts
 (L = 20 to 30) of films that are heated or thin."""
 THIRD_ORDER_STRATEGIES = 2
@@ -152,6 +152,9 @@ COMBINED_LOAD = 1e3
 STEEP_SPEED = 13.0
 """Moes speed L above which `UNCOMBINED` comes before the combined cycles. Nine contacts of machines
 whose first strategy fails take 0.75 of the CPU time by this and by going on from solved grids."""
+UNDAMPED = Strategy(relaxation=STEEP, gives_up=True)
+"""Tried soon where the oil is scarce: at the edge of the film damped heat and thinning follow it
+too slowly. It takes 0.8 of the CPU time of 39 contacts of machines."""
 THINNEST = Strategy(relaxation=THIN, damping=0.5, patience=3, memory=COMBINED_CYCLES)
 """For films so thin that on coarse grids any other strategy makes them negative."""
 STARVED_DAMPING = 0.3
@@ -194,25 +197,38 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
         cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
         # and their Jacobian lacks partly filled cavities
         return cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
-    rungs = _rungs(problem)
     if options.order < 3 or options.wedge_order is not None:
-        return rungs
+        return _rungs(problem)
+    return _with_third_order(scaled, _rungs(problem))
+
+
+def _with_third_order(scaled: ScaledProblem, rungs: tuple[Strategy, ...]) -> tuple[Strategy, ...]:
+    """Return strategies with a wedge of third order, then ``rungs`` with one of second order."""
+    problem = scaled.problem
+    heavy = problem.is_coupled and _is_heavy(scaled)
+    rungs = rungs[1:] if heavy else rungs
     thin = (THINNEST,) if _exceeds(scaled, THIN_LOAD, THIN_RATIO) else ()
-    if problem.is_coupled and _is_heavy(scaled):
-        rungs = rungs[1:]
+    later = (THINNEST,) if not thin and _exceeds(scaled, *THIN_LATER) else ()
+    steep = (UNCOMBINED,) if problem.is_coupled else ()
+    scarce = (UNDAMPED,) if problem.is_coupled and problem.supply and not heavy else ()
     # behind steep pressure spikes some contacts converge with second order only
     second = (replace(one, wedge_order=2) for one in rungs)
-    steep = (UNCOMBINED,) if problem.is_coupled else ()
+    quick, *others = rungs[:THIRD_ORDER_STRATEGIES]
     if problem.asperities is not None:
-        return (*thin, *rungs[: THIRD_ORDER_STRATEGIES + 1], *steep, *second)
-    combines = problem.is_coupled or scaled.groups.M > COMBINED_LOAD
-    third = tuple(
-        replace(one, memory=COMBINED_CYCLES) if combines and one.relaxation.stiff else one
-        for one in rungs[:THIRD_ORDER_STRATEGIES]
-    )
-    first = 1 if scaled.groups.L > STEEP_SPEED else THIRD_ORDER_STRATEGIES
-    later = (THINNEST,) if not thin and _exceeds(scaled, *THIN_LATER) else ()
-    return (*thin, *third[:first], *steep, *later, *third[first:], *second)
+        third = (quick, *scarce, *others, rungs[THIRD_ORDER_STRATEGIES], *steep)
+        return (*thin, *third, *second)
+    if problem.is_coupled or scaled.groups.M > COMBINED_LOAD:
+        quick, *others = map(_combined, (quick, *others))
+    if scaled.groups.L > STEEP_SPEED:
+        third = (quick, *steep, *later, *scarce, *others)
+    else:
+        third = (quick, *scarce, *others, *steep, *later)
+    return (*thin, *third, *second)
+
+
+def _combined(strategy: Strategy) -> Strategy:
+    """Return a strategy that combines its cycles if nodes change by small steps."""
+    return replace(strategy, memory=COMBINED_CYCLES) if strategy.relaxation.stiff else strategy
 
 
 def _is_heavy(scaled: ScaledProblem) -> bool:
