@@ -304,15 +304,16 @@ def test_the_iteration_may_keep_what_the_other_errors_leave(minimum: float, spar
 
 
 @pytest.mark.parametrize(
-    ("minimum", "thinnest", "more"), [(0.025, 0.9, True), (0.014, 0.9, False), (0.025, 0.1, False)]
+    ("minimum", "thinnest", "lines"),
+    [(0.017, 0.9, 161), (0.025, 0.9, 193), (0.014, 0.9, None), (0.025, 0.1, None)],
 )
-def test_a_minimum_that_errs_by_no_mesh_along_y_gets_no_more_lines_alone(
-    minimum: float, thinnest: float, more: bool
+def test_a_minimum_that_errs_by_the_mesh_along_y_alone_gets_as_many_more_lines_as_it_needs(
+    minimum: float, thinnest: float, lines: int | None
 ) -> None:
     scaled = ScaledProblem.of(moes_contact(400.0, 1.0))
     options = settled(scaled.problem, Options())
     level = with_minimum_at(thinnest, finest_grid(scaled, options.on_points(97, 97)))
-    assert Goal(scaled, options).wants_lines(level, errors(0.008, minimum)) is more
+    assert Goal(scaled, options).more_lines(level, errors(0.008, minimum)) == lines
 
 
 @pytest.mark.parametrize(
@@ -355,7 +356,7 @@ def test_a_flooded_film_to_which_a_supply_is_stated_has_the_goal_of_its_centre()
     goal = Goal(scaled, options, of_central=True)
     assert goal.is_met(errors(0.005, 0.025))
     assert not goal.is_met(errors(0.0065, 0.001))
-    assert not goal.wants_lines(level, errors(0.005, 0.025))
+    assert goal.more_lines(level, errors(0.005, 0.025)) is None
     assert goal.spare(errors(0.001, 0.025)) == pytest.approx(MOST_SPARE * FLOODED_PART * 0.01)
 
 

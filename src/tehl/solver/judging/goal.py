@@ -260,8 +260,8 @@ class Goal:
         self._tries += 1
         return self.may_refine(level)
 
-    def wants_lines(self, level: Level, errors: ErrorEstimate | None) -> bool:
-        """Return whether the minimum film errs by the mesh along y alone.
+    def more_lines(self, level: Level, errors: ErrorEstimate | None) -> int | None:
+        """Return lines with which the minimum film meets the goal; None if others err too.
 
         Parameters
         ----------
@@ -272,17 +272,20 @@ class Goal:
         """
         grid, target = level.grid, self.target
         if errors is None or errors.central > target or not self.options.extrapolate:
-            return False
+            return None
         if self.of_central or not (errors.minimum_has_limit and is_thinnest_at_side(level)):
-            return False
-        others = errors.minimum - errors.discretisation_minimum
-        if errors.discretisation_minimum < LINES_PART * errors.discretisation_central:
-            return False
-        if others > 0.5 * target or side_bar(self.scaled, grid.domain, grid.ny) < 0.2 * target:
-            return False
-        finer = 2 * grid.ny - 1
+            return None
+        bar = errors.discretisation_minimum
+        left = target - (errors.minimum - bar)
+        if bar < LINES_PART * errors.discretisation_central:
+            return None
+        if left < 0.5 * target or side_bar(self.scaled, grid.domain, grid.ny) < 0.2 * target:
+            return None
+        least = (grid.ny - 1) * math.sqrt(BETWEEN_MARGIN * bar / left)
+        enough = (n for n in FAVOURED if n > least and n > grid.ny)
+        finer = min(next(enough, MOST_NODES_PER_AXIS), 2 * grid.ny - 1)
         most = most_lines(self.scaled.groups.ellipticity) * grid.nx
-        return finer <= min(most, MOST_NODES_PER_AXIS)
+        return finer if finer <= min(most, MOST_NODES_PER_AXIS) else None
 
     def other_nodes(self, level: Level, errors: ErrorEstimate | None) -> tuple[int, int] | None:
         """Return nodes (nx, ny) of another grid that is expected to reach the error; None if none.
@@ -298,9 +301,8 @@ class Goal:
         """
         if self._others == MOST_OTHERS:
             return None
-        nx, ny = level.grid.points
-        found = (nx, 2 * ny - 1) if self.wants_lines(level, errors) else None
-        found = found or self._between(level, errors)
+        lines = self.more_lines(level, errors)
+        found = self._between(level, errors) if lines is None else (level.grid.nx, lines)
         if found is None or self._needed(found) > memory_limit(self.options):
             return None
         self._others += 1
