@@ -123,7 +123,8 @@ def _slopes(
         return 0.0, 0.0
     resolved, place = roughness.resolved_on(*mesh), sample_of(roughness, problem)
     heights = np.broadcast_to(resolved.height(*place), (place.y.size, place.x.size))
-    squares = sum(one**2 for one in np.gradient(heights, place.y[:, 0], place.x[0]))
+    slopes = np.gradient(heights, place.y[:, 0], place.x[0])
+    squares = np.square(slopes).sum(axis=0)
     return math.sqrt(squares.max()), math.sqrt(squares.mean())
 
 
