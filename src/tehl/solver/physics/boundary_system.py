@@ -98,7 +98,7 @@ class TouchingSystem:
         oil = np.where(self.free, 0.0, -level.film.p.ravel())
         oil[~(self.operators.neighbours.here.diagonal() > 0.0)] = 0.0  # edges keep their pressure
         total = np.where(self.touching, 0.0, oil - level.film.asperity.ravel())
-        self.known_oil, self.known_total = oil, total
+        self.known_oil = oil
         missing = self.stiffness * (least - level.separation.ravel())
         load = level.missing_load()
         if oil.any() or total.any():
