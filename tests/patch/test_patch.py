@@ -201,7 +201,7 @@ def test_a_patch_carries_more_oil_on_the_faster_surface(tmp_path):
     for rough, sliding, sign in (("1", 1, 1), ("2", -1, 1), ("2", 1, -1), ("12", 1, 0), ("", 1, 0)):
         case = tables | {f"surface_{n}": tables[f"surface_{n}"] | rq for n in rough}
         case["contact"] = tables["contact"] | {"slide_roll_ratio": sliding}
-        found = solve(case_from_tables(case)[0], Options(points=129))
+        found = solve(case_from_tables(case)[0], Options(points=65))
         films.append(found.film.central)
         law, middle = found.problem.asperities, found.y.size // 2
         inside = np.abs(found.x) < 0.6 * found.scales.half_width_x
@@ -210,7 +210,7 @@ def test_a_patch_carries_more_oil_on_the_faster_surface(tmp_path):
         density = found.problem.lubricant.density.density(pressure, inlet)
         carried = density * law.mean_gap(gap) * (1.0 + 0.5 * sign * law.carried(gap))
         assert np.ptp(carried) < 0.03 * carried.mean()
-    rolling = solve(case_from_tables(tables)[0], Options(points=129)).film.central
+    rolling = solve(case_from_tables(tables)[0], Options(points=65)).film.central
     assert films[0] == pytest.approx(films[1], rel=1e-9)  # surfaces and directions swapped
     assert films[2] > 1.05 * films[0]
     assert films[3] == films[4] == rolling  # as rough as each other, or not stated
@@ -227,9 +227,9 @@ def test_a_changed_file_is_another_patch_and_a_result_needs_none(tmp_path):
     file = tmp_path / "ground.csv"
     np.savetxt(file, 2e-5 * random_patch(32), delimiter=",")
     problem = case_from_tables(patch_case(file))[0]
-    first = solve(problem, Options(points=129))
+    first = solve(problem, Options(points=65))
     np.savetxt(file, 1e-5 * random_patch(32), delimiter=",")
-    second = solve(problem, Options(points=129))
+    second = solve(problem, Options(points=65))
     assert second.load_sharing.share < 0.7 * first.load_sharing.share
     save(first, tmp_path / "first.nc")
     file.unlink()

@@ -297,7 +297,7 @@ def test_a_turning_heated_run_resumes_bit_by_bit():
     turn, slide = [[0.0, 1.0], [0.6, -0.4]], [[0.0, 0.4]]
     case = heated(0.6, 3.5, entrainment_speed=turn, sliding_speed=slide).start.problem
     assert case.transient is not None
-    options = Options(points=129, domain=Domain(x=(-3.5, 3.5)))
+    options = Options(points=97, domain=Domain(x=(-3.5, 3.5)))
     kept: list[Snapshot] = []
     whole = solve_transient(case, options, keep=lambda one: kept.append(one.copy()))
     resumed = solve_transient(case, options, resume=unpack(pack(kept[len(kept) // 2])))

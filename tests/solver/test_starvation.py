@@ -245,7 +245,7 @@ def test_a_starved_film_stays_as_it_is_while_nothing_changes():
     steady = ContactProblem.model_validate(case)
     motion = steady.hertz.half_width_x / steady.entrainment_speed
     case["transient"] = {"duration": 1.5 * motion, "frames": 0}
-    run = solve_transient(ContactProblem.model_validate(case), Options(points=97))
+    run = solve_transient(ContactProblem.model_validate(case), Options(points=65))
     assert run.status.converged
     assert np.ptp(run.history.film_central) < 2e-4 * run.history.film_central[0]
     assert np.ptp(run.history.film_minimum) < 1e-3 * run.history.film_minimum[0]
@@ -287,7 +287,7 @@ def states() -> list[PassState]:
 def passed(states: list[PassState]) -> Result:
     """Return the last of some passes."""
     problem = starved(50.0, 8.0, ratio=1.0, passes=24, track=0.25)
-    return solve_passes(problem, Options(points=97), keep=states.append)
+    return solve_passes(problem, Options(points=65), keep=states.append)
 
 
 def test_the_film_decays_from_pass_to_pass_by_what_flows_aside(passed):
@@ -301,7 +301,7 @@ def test_the_film_decays_from_pass_to_pass_by_what_flows_aside(passed):
 
 
 def test_passes_continue_where_they_were_stopped(passed, states):
-    again = solve_passes(passed.problem, Options(points=97), resume=states[9])
+    again = solve_passes(passed.problem, Options(points=65), resume=states[9])
     for name in ("film_central", "entering", "time"):
         np.testing.assert_array_equal(getattr(again.passes, name), getattr(passed.passes, name))
 
@@ -311,7 +311,7 @@ def test_what_comes_back_ends_the_decay(passed):
         update={"replenishment": 2e-8 / passed.problem.supply.pass_seconds(1.0) / 10.0}
     )
     problem = passed.problem.model_copy(update={"supply": supply})
-    more = solve_passes(problem, Options(points=97)).passes.film_central
+    more = solve_passes(problem, Options(points=65)).passes.film_central
     assert more[-1] > 1.02 * passed.passes.film_central[-1]
 
 
