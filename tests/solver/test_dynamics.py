@@ -248,7 +248,7 @@ def marched(omega, points):
     ("omega", "points"),
     [
         pytest.param(0.3, 97, marks=pytest.mark.slow),
-        (1.0, 65),
+        (1.0, 49),
         pytest.param(3.0, 129, marks=pytest.mark.slow),
     ],
 )

@@ -48,7 +48,7 @@ SLOW = pytest.param("start", marks=pytest.mark.slow)
 @pytest.mark.parametrize("name", ["sine", "load", "reverse", SLOW])
 def test_films_are_those_of_another_program(name):
     cited, films = CITED[name], []
-    for points in (257, 513) if name in ("start", "reverse") else (129, 257):
+    for points in (193, 385) if name in ("start", "reverse") else (129, 257):
         run = changing(points, cited["edges"], cited["samples"][-1][0] + 0.1, **CHANGES[name])
         assert run.status.converged
         time = run.history.time / UNIT

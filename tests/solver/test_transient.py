@@ -133,11 +133,11 @@ def test_mass_travels_through_the_contact_at_the_mean_speed():
     given["transient"] = {"duration": 4.5 * units.half_width_x / units.speed, "tolerance": 1e-4}
     run = solve_transient(
         ContactProblem.model_validate(given),
-        Options(points=129, domain=Domain(x=(-2.5, 1.5), y=(-2.0, 2.0))),
+        Options(points=97, domain=Domain(x=(-2.5, 1.5), y=(-2.0, 2.0))),
     )
     density = case.lubricant.density.density(run.profiles.pressure, case.inlet_temperature)
     mass = density * run.profiles.film
-    x, mesh = run.start.scaled.x, 4.0 / 128
+    x, mesh = run.start.scaled.x, 4.0 / 96
     ahead, behind = (int(np.argmin(np.abs(x - place))) for place in (0.25, -0.25))
     steps = round(0.5 / mesh)
     arriving, leaving = mass[-40 - steps : -steps, behind], mass[-40:, ahead]
