@@ -1,5 +1,7 @@
 """CPU time that a solve needs, from the cycles of full multigrid on each grid."""
 
+import math
+
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import domain_of
@@ -41,10 +43,10 @@ NODES_PER_RESOLVED_WAVE = 8.0
 """Nodes on the shortest wave from which a grid has the heights."""
 SURPLUS = 1.1
 """Factor for the contacts that take a finer grid than planned, or a fallback."""
-HEAVY_FACTOR, HEAVY_FROM_M = 2.0, 4000.0
-"""Factor where thinning or heated films need a fallback whose cycles are slow, and the M from which
-most do."""
-STEEP_FROM_L, STEEP_POWER, STEEPEST, LEAST_M_OF_SPIKES = 12.0, 5.0, 50.0, 2.0
+HEAVY_FACTOR, HEAVY_FROM_M, HEAVIER_FROM_M = 2.0, 4000.0, 1e4
+"""Factor where thinning or heated films need a fallback whose cycles are slow, the M from which
+most do, and that from which the factor grows as its root."""
+STEEP_FROM_L, STEEP_POWER, STEEPEST, LEAST_M_OF_SPIKES = 12.0, 1.5, 8.0, 2.0
 """L from which behind a steep spike of the pressure the time of such films grows by this power, as
 grids and strategies fail; largest factor; and the M below which there is no spike."""
 SLENDER_RATIO_OF_TIME, WIDE_RATIO_OF_TIME = 0.7, 4.0
@@ -141,7 +143,8 @@ def _surplus(scaled: ScaledProblem) -> float:
     problem, groups = scaled.problem, scaled.entering
     if not problem.is_coupled or problem.is_rough:
         return SURPLUS
-    heavy = HEAVY_FACTOR if groups.M > HEAVY_FROM_M else 1.0
+    heavy = HEAVY_FACTOR * math.sqrt(max(groups.M / HEAVIER_FROM_M, 1.0))
+    heavy = heavy if groups.M > HEAVY_FROM_M else 1.0
     if groups.M < LEAST_M_OF_SPIKES or groups.L < STEEP_FROM_L:
         return SURPLUS * heavy
     return SURPLUS * max(heavy, min((groups.L / STEEP_FROM_L) ** STEEP_POWER, STEEPEST))
