@@ -30,7 +30,6 @@ _KNEE_RATE = -math.log1p(-_KNEE)
 _KNEE_LOG = math.log(_KNEE_RATE / _KNEE)
 _KNEE_SLOPE = 1.0 / ((1.0 - _KNEE) * _KNEE_RATE) - 1.0 / _KNEE
 _SERIES_LIMIT = 0.05  # below, the power series is the more accurate
-_MOST_NEWTON_STEPS = 100  # of Newton's method; it needs fewer than twenty
 
 
 class ShearModel(Law):
@@ -182,7 +181,7 @@ class Carreau(ShearModel):
         aim = np.log(np.maximum(stress, 1e-150))
         part = 1.0 - self.exponent
         log_rate = np.maximum(aim, aim / self.exponent)
-        for _ in range(_MOST_NEWTON_STEPS):
+        for _ in range(100):  # it needs fewer than twenty
             missing = aim - log_rate + 0.5 * part * np.logaddexp(0.0, 2.0 * log_rate)
             step = missing / (1.0 - part / (1.0 + np.exp(np.minimum(-2.0 * log_rate, 700.0))))
             log_rate = log_rate + step

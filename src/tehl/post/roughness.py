@@ -19,9 +19,6 @@ QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 """Parts of the contact whose films are reported."""
 LEAST_RIPPLE_DEPTH = 0.01
 """Depth of a ripple that counts, over the mean film of the line [-]."""
-CENTRE_RADIUS = 0.5
-"""Radius of the middle of the contact, in half-widths."""
-_LINE = 0.8
 _SMOOTH = 1e-12
 """Sq of both surfaces up to which they are smooth [m]: the foot of a bump far upstream."""
 
@@ -162,7 +159,7 @@ def ripples(x: Array, y: Array, film: Array, pressure: Array) -> tuple[float, fl
         Dimensionless.
     """
     radius = x**2 + y[:, None] ** 2
-    inside = radius < CENTRE_RADIUS**2
+    inside = radius < 0.5**2  # the middle of the contact
     rows, columns = np.nonzero(inside)
     # a half domain stands for both halves, but its row y = 0 for itself
     weight = np.where(y[rows] == 0.0, 0.5 if y[0] == 0.0 else 1.0, 1.0)
@@ -269,7 +266,7 @@ def film_histogram(result: Solution, bins: int | Sequence[float] = 60) -> tuple[
 
 def _ripples(axis: Array, film: Array) -> Ripples:
     """Return the valleys of a film along ``axis`` [half-widths]."""
-    line = film[np.abs(axis) <= _LINE]
+    line = film[np.abs(axis) <= 0.8]  # half-widths
     turns = _turns(line, LEAST_RIPPLE_DEPTH * float(line.mean()))
     # Every other turn is a valley; those at the ends lie beside one hill only.
     depths = [

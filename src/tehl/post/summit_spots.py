@@ -32,9 +32,6 @@ from tehl.post.traction import cell_widths
 from tehl.result.fields import FilmAsperities
 from tehl.result.solution import Solution
 
-LEAST_SPOTS = 0.5
-"""Spots in the contact below which none touches."""
-
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Spots:
@@ -92,7 +89,7 @@ def spots(result: Solution, found: FilmAsperities) -> Spots | None:
     pressure = found.pressure / np.where(real > 0.0, real, 1.0)
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
     number = float((cells * density).sum())
-    if number < LEAST_SPOTS:
+    if number < 0.5:  # none touches
         return None
     most = np.unravel_index(found.pressure.argmax(), found.pressure.shape)
     rises = _flash_rises(result, law.friction * pressure, radius)

@@ -8,9 +8,6 @@ from tehl.post.summit_spots import Spots, real_area, spots
 from tehl.post.traction import cell_widths, rubbing_motion, traction
 from tehl.result.solution import Solution
 
-NEGLIGIBLE_SHARE = 1e-9
-"""Share of the load below which asperities carry nothing."""
-
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class LoadSharing:
@@ -60,7 +57,7 @@ def load_sharing(result: Solution) -> LoadSharing | None:
         return None
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
     share = float((cells * found.pressure).sum()) / result.load
-    share = share if share > NEGLIGIBLE_SHARE else 0.0
+    share = share if share > 1e-9 else 0.0  # they touch in a tail of the statistics only
     hertz = result.groups.shape.area * scales.half_width_x * scales.half_width_y
     area = float((cells * real_area(result, found)).sum())
     bar = None if result.errors is None else result.errors.at("load_sharing.share")

@@ -18,9 +18,6 @@ from tehl.result.fields import Fields, FilmSummary, SurfaceHeights
 from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
 
-_INSIDE = 0.8
-"""Half-widths of y = 0 on each side in which the largest changes are searched."""
-
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class MovingProfiles:
@@ -187,7 +184,7 @@ def largest_change(run: TransientSolution, name: str, sign: int) -> LargestChang
     sign : {-1, 1}
         The largest decrease or the largest increase.
     """
-    inside = np.flatnonzero(np.abs(run.start.scaled.x) < _INSIDE)
+    inside = np.flatnonzero(np.abs(run.start.scaled.x) < 0.8)  # half-widths
     values = getattr(run.profiles, name)[:, inside]
     step, node = np.unravel_index(int(np.argmax(sign * (values - values[0]))), values.shape)
     return LargestChange(

@@ -27,7 +27,6 @@ from tehl.roughness.prepare import (
 from tehl.roughness.tile import Tile
 
 _LEAST_POINTS = 4
-_TAPER = 0.1
 _LEAST_SQ, _LARGEST_SQ = 1e-12, 10e-6
 _PHASES = ("rad", "radian", "radians", "waves", "wave", "fringes", "fringe", "fr", "wv")
 _LARGEST_SIZE, _LEAST_SPACING, _LARGEST_HEIGHT = 1.0, 1e-10, 1.0
@@ -89,7 +88,7 @@ def _tile(surface: MapSettings, stamp: object) -> Tile:
     heights = _loaded(surface, stamp)
     values = heights.values
     if surface.outside == "flat":
-        width = _TAPER * min(heights.size) if surface.taper is None else surface.taper
+        width = 0.1 * min(heights.size) if surface.taper is None else surface.taper
         values = tapered(heights, width)
     return Tile(
         heights=values,

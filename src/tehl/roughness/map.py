@@ -16,9 +16,6 @@ else:
     loading = lazy("tehl.roughness.loading")
     prepare = lazy("tehl.roughness.prepare")
 
-_COARSE_RATIO = 10.0
-_MIRROR_TOLERANCE = 1e-6
-"""Largest difference of a map and its mirror image that counts as equal, over Sq."""
 _LARGE_RATIO = 20.0
 
 
@@ -36,7 +33,7 @@ class Map(MapSettings):
         if self.y != 0.0 or direction(self.rotate)[1] != 0.0:
             return False
         heights = self._tile.heights
-        return float(abs(heights - heights[::-1]).max()) <= _MIRROR_TOLERANCE * self.rms
+        return float(abs(heights - heights[::-1]).max()) <= 1e-6 * self.rms
 
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:
@@ -102,7 +99,7 @@ class Map(MapSettings):
             )
         elif extent[0] > _LARGE_RATIO * width and extent[1] > _LARGE_RATIO * length:
             sentences.append(f"{sizes}: only a small part of the map lies in the contact")
-        if max(heights.pixel) > min(width, length or width) / _COARSE_RATIO:
+        if max(heights.pixel) > min(width, length or width) / 10.0:
             sentences.append(
                 f"the map has points {_micro(*heights.pixel)} apart and the contact measures "
                 f"{size}: that is too coarse to be roughness, check its size"

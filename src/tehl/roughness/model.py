@@ -15,7 +15,6 @@ from tehl.base.table import Table
 from tehl.base.typing import Array, np
 from tehl.base.units import Height, Length, Quantity, quantity
 
-_COSINE_ROUNDING = 1e-12
 _PER_MEAN = math.sqrt(0.5 * math.pi)
 """Root mean square over mean absolute height of Gaussian heights."""
 _LARGEST_STEEPNESS = 0.25
@@ -138,7 +137,7 @@ class Smooth(RoughnessModel):
 def direction(angle: float) -> tuple[float, float]:
     """Return cosine and sine of ``angle`` [rad], exact at multiples of a right angle."""
     cosine, sine = (
-        round(value) if abs(value - round(value)) < _COSINE_ROUNDING else value
+        round(value) if abs(value - round(value)) < 1e-12 else value  # rounding of pi
         for value in (math.cos(angle), math.sin(angle))
     )
     return float(cosine), float(sine)

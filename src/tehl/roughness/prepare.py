@@ -17,13 +17,9 @@ FEW_MISSING, MOST_MISSING = 0.01, 0.5
 """Share of missing points that is filled by default, and that no filling bridges."""
 _NEIGHBOURS, _EXPLAINS = 5, 7
 """Points along the edges of the windows of the medians, and of the range of these."""
-_OUTLIER_SIGMAS = 5.0
-"""Standard deviations beyond which a distance does not count for their size."""
 RELATIVE_ROUNDING = 1e-12
 _DEGREE = {"mean": 0, "plane": 1, "quadratic": 2}
 _ALPHA = math.sqrt(math.log(2.0) / math.pi)
-_RIM = 12
-"""Points of zeros around a flat tile, after which its spline is zero to rounding."""
 _MOST_LEFT, _BEND_SHARE = 0.5, 0.2
 """Sq without the quadratic over Sq below which it is odd; share of a bend that is named."""
 
@@ -91,7 +87,7 @@ def _usual(distances: Array) -> float:
     """Return the root mean square of distances without outliers, beyond five times that value."""
     while True:
         usual = math.sqrt(float(np.mean(distances**2)))
-        kept = distances[distances <= _OUTLIER_SIGMAS * usual]
+        kept = distances[distances <= 5.0 * usual]  # outliers do not count for their size
         if kept.size == distances.size:
             return usual
         distances = kept
@@ -261,7 +257,8 @@ def tapered(heights: Heights, width: float) -> Array:
         edge = np.minimum(np.arange(count) + 0.5, count - np.arange(count) - 0.5)
         share = edge / max(min(width / step, 0.5 * count), 1e-9)
         windows.append(np.sin(0.5 * np.pi * np.clip(share, 0.0, 1.0)) ** 2)
-    return np.pad(heights.values * windows[0][:, None] * windows[1], _RIM)
+    # after as many zeros the spline of a flat tile is zero to rounding
+    return np.pad(heights.values * windows[0][:, None] * windows[1], 12)
 
 
 class Form(NamedTuple):

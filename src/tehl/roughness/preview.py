@@ -14,9 +14,6 @@ from tehl.roughness.statistics import Spectrum, Statistics, share_beyond, spectr
 
 _PER_PICTURE = 900
 """Most points of a picture along an axis."""
-_LARGEST_PICTURE_RATIO = 5.0
-"""Largest size of a picture over that of its map; beyond, the map would be a dot."""
-_PICTURE_MARGIN = 1.05
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -144,9 +141,9 @@ def _window(found: Preview) -> Extent:
     box = found.surface.box
     if found.mesh is None:
         return box
-    halves = [_PICTURE_MARGIN * half for half in found.mesh.half_widths]
+    halves = [1.05 * half for half in found.mesh.half_widths]
     x, y = (
         (min(start, -half), max(end, half)) for (start, end), half in zip(box, halves, strict=True)
     )
     longest = [max(end - start for start, end in one) for one in ((x, y), box)]
-    return (x, y) if longest[0] <= _LARGEST_PICTURE_RATIO * longest[1] else box
+    return (x, y) if longest[0] <= 5.0 * longest[1] else box  # else the map would be a dot

@@ -18,12 +18,8 @@ from tehl.roughness.model import Edge, Roughness, direction
 
 PASS_BAND, STOP_BAND = 0.25, 0.5
 """Waves per mesh width up to which all of a wave passes, and from which nothing does."""
-_FADED = 6
-"""Mesh widths in which filtered heights fade into a flat rim."""
 _MOST_POINTS_OF_TILE, _LARGEST_RIM_FACTOR = 4_000_000, 4
 """Points of a tile with its rim, and over those without, above which it is coarsened."""
-_PER_MESH = 16
-"""Points per mesh width of a coarsened tile."""
 
 Pair = tuple[float, float]
 
@@ -108,7 +104,8 @@ class Tile(Roughness):
             return self
         if self.edge == "flat":
             x, y = (
-                math.ceil(_FADED * step / own) for step, own in zip(mesh, self.pixel, strict=True)
+                math.ceil(6 * step / own)  # filtered heights fade into a flat rim
+                for step, own in zip(mesh, self.pixel, strict=True)
             )
             if _is_roomy(self.heights.shape, (x, y)):
                 return self._coarsened(mesh, (x, y), radial=radial)
@@ -146,7 +143,7 @@ class Tile(Roughness):
                 min(count, math.ceil(per_mesh * length / step))
                 for count, length, step in zip(whole, lengths, mesh, strict=True)
             ]
-            for per_mesh in (2.0 * STOP_BAND, _PER_MESH)
+            for per_mesh in (2.0 * STOP_BAND, 16)  # points per mesh width of a coarsened tile
         )
         along, across = (_cosines(kept[k], shape[k], rim[k], whole[k]) for k in (0, 1))
         x, y = (np.arange(kept[k]) / (2.0 * lengths[k]) for k in (0, 1))

@@ -33,9 +33,6 @@ class Case(NamedTuple):
 
 Body = tuple[Callable[[Steps], Spectra], Case, ThermalBody | None]
 """Spectra of the loads by the nodes that a depth needs, the case, and its thermal stress."""
-SYMMETRY = 1e-6
-"""Largest difference of loads on both sides of the middle, over the pressure, that counts as none:
-that of single precision."""
 
 
 class Grid(NamedTuple):
@@ -313,7 +310,7 @@ def _symmetric(loads: SurfaceLoads, row: int) -> bool:
     """Whether loads have the same stresses on both sides of a row."""
     if row == 0 or loads.pressure.shape[0] != 2 * row + 1:
         return False
-    least = SYMMETRY * float(loads.pressure.max())
+    least = 1e-6 * float(loads.pressure.max())  # that of single precision
     *even, odd = loads
     return all(
         np.abs(one - sign * one[::-1]).max() <= least

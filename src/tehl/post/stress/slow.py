@@ -21,15 +21,11 @@ from tehl.post.stress.thermal import Heated
 LARGEST_WAVE = 25.0
 """Largest wave number of what the motion adds to a body at rest, over the inverse half-width of the
 heat: waves of a quarter of it."""
-NODES_PER_WAVE = 2.5
-"""Nodes per shortest wave on which the addition is found, for cubic splines between them."""
 PANEL, PANEL_NODES = 8.0, 6
 """Width of a panel of the quadrature times the length of the grid, and nodes in it."""
 SPOT_HALVINGS, LINE_HALVINGS = 10, 30
 """Times that the first panel is halved towards zero: 2e-5 of the largest stress; a line of heat
 warms as the root of the wave number, and has 1e-5."""
-LEAST_FLUX = 0.01
-"""Flux over the largest from which on nodes count to the width of the heat."""
 _ODD_ALONG_Y = np.array([1.0, 1.0, 1.0, -1.0, -1.0, 1.0])[:, None, None]
 
 
@@ -123,7 +119,7 @@ class SlowStress:
         self.shape = flux[part].shape
         is_line = flux.shape[0] == 1
         self.rest = None if is_line else RestingStress(heated)
-        warm = np.abs(flux) > LEAST_FLUX * np.abs(flux).max()
+        warm = np.abs(flux) > 0.01 * np.abs(flux).max()  # nodes that count to the width of the heat
         self.x = _axis(dx, flux.shape[1], part[1], np.inf if is_line else warm.any(axis=0).sum())
         self.y = None if is_line else _axis(dy, flux.shape[0], part[0], warm.any(axis=1).sum())
         waves = flux @ self.x.forward.T
@@ -191,7 +187,8 @@ def _axis(step: float, number: int, part: slice, warm: float) -> _Axis:
     waves, weights = _quadrature(most, PANEL / (number * step), halvings)
     places = step * np.arange(number)
     wanted = places[part]
-    few = 4 + int(NODES_PER_WAVE * most * np.ptp(wanted) / (2.0 * np.pi))
+    # nodes per shortest wave, for cubic splines between them
+    few = 4 + int(2.5 * most * np.ptp(wanted) / (2.0 * np.pi))
     nodes = np.linspace(wanted[0], wanted[-1], few) if few < wanted.size else wanted
     spline = make_interp_spline(nodes, np.eye(nodes.size)) if few < wanted.size else None
     cells = weights * step / (2.0 * np.pi) * np.sinc(0.5 * waves * step / np.pi)

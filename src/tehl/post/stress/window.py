@@ -10,15 +10,11 @@ from tehl.contact.stress import Stress
 from tehl.post.stress.loads import SurfaceLoads
 from tehl.result.solution import Solution
 
-LEAST_PRESSURE = 1e-2
-"""Pressure over the largest below which nodes at the edges of the domain are left out."""
 LEAST_WINDOW = 1.25
 """Half-widths of the Hertz contact on each side in which stresses are always computed."""
 WAKE = 2.5
 """Half-widths behind the window in which the wake of heat still pulls at the contact: twice as many
 change stresses by 1 % of the largest thermal one (balls of steel, solid Peclet number 10)."""
-LEAST_DEPTH = 2.0
-"""Least depth [mesh widths]: above it a rough pressure is not resolved."""
 
 
 class Window(NamedTuple):
@@ -40,7 +36,8 @@ def window_of(result: Solution, pressure: Array) -> Window:
     pressure : (ny, nx) array
         Of all that carries load [Pa].
     """
-    scaled, slices, least = result.scaled, [], LEAST_PRESSURE * float(pressure.max())
+    # a window leaves out the edges of the domain, where little presses
+    scaled, slices, least = result.scaled, [], 0.01 * float(pressure.max())
     for axis, along in ((scaled.y, 1), (scaled.x, 0)):
         inside = np.flatnonzero((pressure.max(axis=along) > least) | (np.abs(axis) <= LEAST_WINDOW))
         first, last = int(inside[0]), int(inside[-1])
@@ -73,7 +70,7 @@ def depths_of(result: Solution, settings: Stress, window: Window) -> Array:
     rough = result.heights is not None or result.contact is not None
     is_line = result.scaled.y.size == 1
     step = max(window.spacing) if rough and not is_line else min(window.spacing)
-    shallowest = LEAST_DEPTH * step
+    shallowest = 2.0 * step  # mesh widths: above it a rough pressure is not resolved
     deepest = max(settings.deepest * smaller, 4.0 * shallowest)
     return np.geomspace(shallowest, deepest, settings.depths)
 

@@ -20,7 +20,6 @@ from tehl.base.typing import Array
 from tehl.roughness.files.raw import RawMap, check_bytes, check_count
 
 _MAIN, _CHECKSUM = "main.xml", "md5checksum.hex"
-_LARGEST_HEADER = 10**7
 _DAMAGE = (
     zipfile.BadZipFile,
     zlib.error,
@@ -47,7 +46,7 @@ def read_x3p(path: Path) -> RawMap:
 
 
 def _map_of(archive: zipfile.ZipFile) -> RawMap:
-    header = _member(archive, _MAIN, _LARGEST_HEADER)
+    header = _member(archive, _MAIN, 10**7)  # bytes
     root = _parsed(header)
     _check_header(archive, header)
     if (feature := _text(root, "Record1/FeatureType")) not in ("SUR", None):
