@@ -95,6 +95,25 @@ def test_a_contact_becomes_a_line_a_roller_or_an_ellipse_under_the_same_pressure
         assert ("contact.spin_1" in shown) == (option == "point")
 
 
+def test_a_roller_becomes_a_piece_that_goes_on_or_tilts_by_a_moment():
+    case, _, items = controls_of("roller")
+    of_a_whole = {"contact.tilt|", "contact.tilt", "contact.tilting_moment", "contact.profile"}
+    expected = {
+        ("contact.ends", "mirrored"): set(),
+        ("contact.ends", "open"): of_a_whole - {"contact.tilting_moment"},
+        ("contact.tilt|", "tilting_moment"): of_a_whole - {"contact.tilt"},
+        ("contact.tilt|", "tilt"): of_a_whole - {"contact.tilting_moment"},
+        ("contact.type", "point"): set(),
+    }
+    for (path, option), paths in expected.items():
+        choose(case, next(item for item in items if item.path == path), option)
+        problem = case_from_tables(case.tables)[0]
+        items = [item for group in groups(case, problem) for item in group.items]
+        assert {item.path for item in items} & of_a_whole == paths
+        if option == "tilting_moment":
+            assert problem.contact.tilting_moment == pytest.approx(0.02 * 2e3 * 0.01, rel=0.02)
+
+
 def test_radii_of_both_bodies_become_the_reduced_radius():
     case, problem, items = controls_of("ball-on-disc")
     choice = next(item for item in items if item.path == "contact.radius|")

@@ -31,6 +31,8 @@ _SUPPLIES: dict[str, tuple[str, Any]] = {
     "ratio": ("share of flooded", {"ratio": 0.6}),
 }
 
+_OF_A_WHOLE_ROLLER = ("profile", "tilt", "tilting_moment")
+
 
 @dataclass(frozen=True)
 class State:
@@ -108,7 +110,7 @@ def kind(state: State) -> Choice:
             problem.reduced_modulus,
         ).half_width_x
     )
-    keys = ("load", "load_per_length", "moes_load", "length", "profile", "tilt", "tilting_moment")
+    keys = ("load", "load_per_length", "moes_load", "length", "ends", *_OF_A_WHOLE_ROLLER)
     point = {f"contact.{key}": None for key in keys} | {"contact.hertz_pressure": pressure}
     turned = ("radius_x", "radius_y", "entrainment_angle", "spin_1", "spin_2")
     line = point | {f"contact.{key}": None for key in turned}
@@ -124,11 +126,44 @@ def kind(state: State) -> Choice:
     return _choice("contact.type", "contact", contact.type, options)
 
 
-def roller_profile(state: State) -> Choice | None:
-    """Return the choice of the profile of a roller."""
-    contact = state.problem.contact
+def roller_ends(state: State) -> Choice | None:
+    """Return the choice between a whole roller and a piece that goes on beyond its ends."""
+    contact, path = state.problem.contact, "contact.ends"
     if contact.type != "roller":
         return None
+    piece: Settings = {path: "mirrored"} | {f"contact.{key}": None for key in _OF_A_WHOLE_ROLLER}
+    whole: Settings = {path: None}
+    options = {"open": ("free", whole), "mirrored": ("it goes on, mirrored", piece)}
+    return _choice(path, "ends of the roller", contact.ends, options)
+
+
+def is_whole_roller(state: State, _: str = "") -> bool:
+    """Return whether the contact is a roller with both its ends."""
+    contact = state.problem.contact
+    return contact.type == "roller" and contact.ends == "open"
+
+
+def roller_tilt(state: State) -> Choice | None:
+    """Return the choice of what tilts a roller."""
+    if not is_whole_roller(state):
+        return None
+    contact = state.problem.contact
+    least = f"{0.02 * state.problem.load * (contact.length or 0.0):.2g} N m"  # both ends carry
+    stated: dict[str, tuple[str, Any]]
+    stated = {"tilt": ("angle", None), "tilting_moment": ("moment of the load", least)}
+    without = {"contact.tilt": None, "contact.tilting_moment": None}
+    options = {
+        key: (name, without | {f"contact.{key}": value}) for key, (name, value) in stated.items()
+    }
+    chosen = "tilt" if contact.tilting_moment is None else "tilting_moment"
+    return _choice("contact.tilt|", "tilt given as", chosen, options)
+
+
+def roller_profile(state: State) -> Choice | None:
+    """Return the choice of the profile of a roller."""
+    if not is_whole_roller(state):
+        return None
+    contact = state.problem.contact
     path = "contact.profile"
     shapes = {name: {"shape": name} for name in ("logarithmic", "lundberg")}
     options: dict[str, tuple[str, Settings]] = {"straight": ("straight", {path: None})}

@@ -116,9 +116,10 @@ def _is_roller(state: State, _: str) -> bool:
     return state.problem.contact.type == "roller"
 
 
-def _has_tilt(state: State, _: str) -> bool:
-    contact = state.problem.contact
-    return contact.type == "roller" and contact.tilting_moment is None
+def _has_tilt(state: State, path: str) -> bool:
+    """Return whether the tilt of a roller is stated as at this path."""
+    by_moment = state.problem.contact.tilting_moment is not None
+    return choices.is_whole_roller(state) and by_moment == path.endswith("moment")
 
 
 def _is_point(state: State, _: str) -> bool:
@@ -243,7 +244,10 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
         *_solid(2),
         choices.kind,
         Row("contact.length", "length of the roller", "mm;m", (1e-3, 0.2), _is_roller),
+        choices.roller_ends,
+        choices.roller_tilt,
         _even("contact.tilt", "tilt of the roller", "mrad;deg", (0.0, 5e-3), _has_tilt),
+        _even("contact.tilting_moment", "moment of the load", "N m", (0.0, 10.0), _has_tilt),
         choices.roller_profile,
         choices.shape,
         _radius("contact.radius", "reduced radius R"),
