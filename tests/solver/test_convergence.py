@@ -317,3 +317,13 @@ def test_small_steps_do_not_pass_for_convergence(relaxation: Relaxation) -> None
         trace.note(film, film)
     assert trace.central.iteration_error() >= 0.01
     assert GridTrace().least_cycles <= trace.least_cycles
+
+
+def test_the_rate_of_the_first_cycle_on_a_grid_is_not_that_of_the_next_ones() -> None:
+    """It removes errors of the interpolated start: most of the second change is left."""
+    trace = GridTrace()
+    for film in (1.0, 1.2, 1.21):
+        trace.note(film, film)
+    assert trace.central.iteration_error() > 0.008
+    trace.note(1.211, 1.211)
+    assert trace.central.iteration_error() < 0.001
