@@ -104,8 +104,9 @@ def _by_grids(
     if level.equations.far_field is not None:
         domain = far_field_error(scaled.entering, edges) + entry_error(scaled, edges)
         domain += spin_error(scaled)
+    goes_on = scaled.groups.shape.goes_on
     if not roughness.is_rough:
-        compared = comparable(traces)
+        compared = comparable(traces, goes_on=goes_on)
         if len(compared) < 2:
             return None
         expected = _expected_bar(hierarchy, level)
@@ -122,7 +123,7 @@ def _by_grids(
             kind=scaled.problem.contact.type,
         )
     # grids that resolve the same heights
-    compared = comparable(traces[roughness.first_comparable :])
+    compared = comparable(traces[roughness.first_comparable :], goes_on=goes_on)
     if len(compared) < 2:
         points, amplitude = roughness.points, roughness.amplitude
         return single_grid_estimate(traces[-1], level.grid.dx, points, amplitude, domain)
@@ -132,16 +133,23 @@ def _by_grids(
     )
 
 
-def comparable(traces: list[GridTrace]) -> list[GridTrace]:
+def comparable(traces: list[GridTrace], *, goes_on: bool = False) -> list[GridTrace]:
     """Return the grids that did not diverge, whose films make error bars, coarsest first.
 
-    They are the last two where the third last is isothermal and the last one is not. The first
-    grids of a narrow piece of a roller differ in their lines alone, so that their films agree
-    however long their cells are along x: of those the last one counts.
+    They are the last two where the third last is isothermal and the last one is not.
+
+    Parameters
+    ----------
+    traces : list of GridTrace
+        Coarsest first.
+    goes_on : bool
+        Whether the contact is a piece of a roller. Its first grids differ in their lines alone, so
+        that their films agree however long their cells are along x: of those the last one counts.
     """
     found = [trace for trace in traces if not trace.diverged]
-    alike = [k for k in range(1, len(found)) if 0 < found[k].columns == found[k - 1].columns]
-    found = found[max(alike, default=0) :]
+    if goes_on:
+        alike = (k for k in range(1, len(found)) if found[k].columns == found[k - 1].columns)
+        found = found[max(alike, default=0) :]
     if len(found) > 2 and found[-3].coupled != found[-1].coupled:
         return found[-2:]
     return found
