@@ -13,10 +13,12 @@ from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import ConvergenceError
 from tehl.api.solvers import solve, solve_transient
 from tehl.contact.options import Domain, Options
+from tehl.estimate.domain import domain_of
 from tehl.estimate.grid import Grid
 from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
+from tehl.estimate.third_order import third_order_bar
 from tehl.io.templates import template_text
 from tehl.result.bars import ErrorEstimate
 from tehl.solver.cycle.iteration import GridIteration
@@ -24,6 +26,7 @@ from tehl.solver.judging.goal import (
     FLOODED_PART,
     MOST_OTHERS,
     MOST_SPARE,
+    PART_AT_EXIT,
     SPARE_PART,
     Goal,
 )
@@ -341,6 +344,20 @@ def test_few_other_grids_are_tried() -> None:
     goal = Goal(scaled, options)
     found = [goal.other_nodes(level, errors(0.006, 0.011)) for _ in range(MOST_OTHERS + 1)]
     assert found == [(161, 161)] * MOST_OTHERS + [None]
+
+
+def test_the_minimum_at_the_exit_of_a_heavy_slender_contact_has_a_least_bar() -> None:
+    """On a quarter of the lines grids may agree by chance: bearings erred by up to three bars."""
+    bearing = moes_contact(5949.0, 7.0, radius_ratio=24.0)
+    found, scaled = (
+        solve(bearing, Options(extrapolate=True).on_points(193, 49)),
+        ScaledProblem.of(bearing),
+    )
+    expected = third_order_bar(scaled, domain_of(scaled, found.options), 193, 49)
+    assert found.errors.discretisation_minimum >= PART_AT_EXIT * expected
+    finer = solve(bearing, Options(extrapolate=True).on_points(769, 193))
+    change = abs(finer.film_scaled.minimum / found.film_scaled.minimum - 1.0)
+    assert change < found.errors.minimum
 
 
 def with_minimum_at(y: float, grid: Grid) -> Mock:
