@@ -142,8 +142,7 @@ class GridTrace:
     ``largest_change`` is that of the mean. A grid on which the iteration ``diverged`` is not
     compared with others. ``outputs`` are the fields to extrapolate; then the iteration error may be
     ``part`` of what it may be without. ``coupled`` says whether the film is heated or thins on this
-    grid. ``columns`` are its nodes
-    along x.
+    grid. ``columns`` are its nodes along x.
     """
 
     central: Trace = field(default_factory=Trace)
