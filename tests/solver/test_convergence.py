@@ -12,6 +12,7 @@ from tehl.solver.cycle.relaxation import STEEP, THIN, Relaxation
 from tehl.solver.judging.convergence import (
     LEAST_CONVERGENCE_RATE,
     LEAST_CYCLES,
+    SECOND_RATE,
     GridTrace,
     film_converged,
     recedes,
@@ -322,7 +323,7 @@ def test_small_steps_do_not_pass_for_convergence(relaxation: Relaxation) -> None
 
 def test_the_rate_of_the_first_cycle_on_a_grid_is_not_that_of_the_next_ones() -> None:
     """It removes errors of the interpolated start: most of the second change is left."""
-    trace = GridTrace()
+    trace = GridTrace(second_rate=SECOND_RATE)
     for film in (1.0, 1.2, 1.21):
         trace.note(film, film)
     assert trace.central.iteration_error() > 0.008

@@ -19,6 +19,8 @@ from tehl.solver.cycle.methods import Cycles, Visit, method_of
 from tehl.solver.cycle.start import pose_problem
 from tehl.solver.judging.balance import LARGEST_OIL_ERROR, Balance
 from tehl.solver.judging.convergence import (
+    SECOND_LOAD,
+    SECOND_RATE,
     SLOW_CYCLES,
     GridTrace,
     check_divergence,
@@ -98,6 +100,7 @@ class GridIteration:
             largest_change=method.largest_change,
             damping=self.coupling.damping,
             rate=self.strategy.relaxation.rate,
+            second_rate=SECOND_RATE if self.hierarchy.scaled.groups.M > SECOND_LOAD else 0.0,
             negligible=self._negligible(),
             steady=method.steady,
             part=EXTRAPOLATED_PART if self.options.extrapolate else 1.0,

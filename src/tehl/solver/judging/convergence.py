@@ -25,10 +25,11 @@ LEAST_CONVERGENCE_RATE, GUESSED_RATE, LARGEST_CONVERGENCE_RATE, LARGEST_ALTERNAT
 )
 """Least convergence rate per cycle in iteration errors, its value from one change, and its largest
 value where changes have the same sign, and where they alternate."""
-SECOND_RATE = 0.45
-"""Least rate after two cycles, of which the first mostly removes errors of the interpolated start:
-without it films of bearings (M = 5,000) that end there err by 0.3 to 0.4 %, six to ten times their
-iteration errors, and by two of their bars once they are extrapolated."""
+SECOND_RATE, SECOND_LOAD = 0.45, 1e3
+"""Least rate after two cycles, of which the first mostly removes errors of the interpolated start,
+and the load M from which it is assumed: without it films of bearings (M = 5,000) that end there err
+by 0.3 to 0.4 %, six to ten times their iteration errors, and by two of their bars once they are
+extrapolated. A circle (M = 20) errs by 0.007 %, the estimate."""
 SLOW_CONVERGENCE_RATE, SLOW_CYCLES = 0.8, 8
 """Ratio of residuals above which cycles are slow, and how many these are at least: the film hardly
 changes in one of them, and two grids that are as far from their solutions agree by chance."""
@@ -100,6 +101,7 @@ class Trace:
 
     values: list[float] = field(default_factory=list)
     least_rate: float = LEAST_CONVERGENCE_RATE
+    second_rate: float = 0.0
 
     def iteration_error(self) -> float:
         """Estimate the change by all further cycles: d q / (1 - q), last change d, rate q.
@@ -114,7 +116,7 @@ class Trace:
         if len(self.values) > 2:
             before = self.values[-2] - self.values[-3]
             largest = LARGEST_CONVERGENCE_RATE if last * before > 0.0 else LARGEST_ALTERNATING
-            least = max(self.least_rate, SECOND_RATE if len(self.values) == 3 else 0.0)
+            least = max(self.least_rate, self.second_rate if len(self.values) == 3 else 0.0)
             rate = min(max(abs(last / before) if before else 0.0, least), largest)
         return abs(last) * rate / (1.0 - rate)
 
@@ -136,13 +138,13 @@ class GridTrace:
 
     ``measured`` has further values after the last cycle (`tehl.solver.judging.measures`).
     ``damping`` is the damping factor of heat and thinning between rough surfaces, 1 is undamped: no
-    convergence rate is below 1 - damping, or below ``rate``. ``negligible`` is the relative
-    iteration error of the film that is always accepted. Without a coarser film to compare, a mean
-    change of ``steady`` is accepted: where surfaces touch, single nodes change by more, and
-    ``largest_change`` is that of the mean. A grid on which the iteration ``diverged`` is not
-    compared with others. ``outputs`` are the fields to extrapolate; then the iteration error may be
-    ``part`` of what it may be without. ``coupled`` says whether the film is heated or thins on this
-    grid. ``columns`` are its nodes along x.
+    convergence rate is below 1 - damping, or below ``rate``, or after two cycles ``second_rate``.
+    ``negligible`` is the relative iteration error of the film that is always accepted. Without a
+    coarser film to compare, a mean change of ``steady`` is accepted: where surfaces touch, single
+    nodes change by more, and ``largest_change`` is that of the mean. A grid on which the iteration
+    ``diverged`` is not compared with others. ``outputs`` are the fields to extrapolate; then the
+    iteration error may be ``part`` of what it may be without. ``coupled`` says whether the film is
+    heated or thins on this grid. ``columns`` are its nodes along x.
     """
 
     central: Trace = field(default_factory=Trace)
@@ -155,6 +157,7 @@ class GridTrace:
     least_cycles: int = LEAST_CYCLES
     damping: float = 1.0
     rate: float = 0.0
+    second_rate: float = 0.0
     negligible: float = 0.0
     steady: float = 0.0
     diverged: bool = False
@@ -168,6 +171,7 @@ class GridTrace:
         self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / (1.0 - rate)))
         for trace in (self.central, self.minimum, self.rise, self.touching):
             trace.least_rate = max(LEAST_CONVERGENCE_RATE, rate)
+            trace.second_rate = self.second_rate
 
     def note(self, central: float, minimum: float) -> None:
         """Append the film before the first cycle.
