@@ -96,11 +96,12 @@ class GridIteration:
         fine.update()
         done = self._start_heat(levels)
         method = method_of(self._visit(levels))
+        is_slow = self.coupling.state is not None or self.hierarchy.scaled.groups.M > SECOND_LOAD
         trace = GridTrace(
             largest_change=method.largest_change,
             damping=self.coupling.damping,
             rate=self.strategy.relaxation.rate,
-            second_rate=SECOND_RATE if self.hierarchy.scaled.groups.M > SECOND_LOAD else 0.0,
+            second_rate=SECOND_RATE if is_slow else 0.0,
             negligible=self._negligible(),
             steady=method.steady,
             part=EXTRAPOLATED_PART if self.options.extrapolate else 1.0,
