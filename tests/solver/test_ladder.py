@@ -16,7 +16,14 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.solver import steady
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
-from tehl.solver.cycle.ladder import STARVED_DAMPING, UNCOMBINED, UNDAMPED, Strategy, ladder
+from tehl.solver.cycle.ladder import (
+    AT_EDGES,
+    STARVED_DAMPING,
+    UNCOMBINED,
+    UNDAMPED,
+    Strategy,
+    ladder,
+)
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, FAST, THIN
 from tehl.solver.judging.convergence import DivergedError
@@ -162,6 +169,8 @@ def test_scarce_oil_is_tried_undamped_unless_heavily_loaded_and_is_damped_more(
     light = light.model_copy(update={"thermal": Thermal()})
     assert rungs(light, **scarce)[1] is UNDAMPED
     assert UNDAMPED not in (*rungs(light), *rungs(hybrid_bearing, **scarce))
+    assert UNCOMBINED in rungs(light, **scarce)
+    assert AT_EDGES in rungs(hybrid_bearing, **scarce)
     steep, less = (
         next(one.damping for one in some if one.damping < 1.0)
         for some in (rungs(hybrid_bearing, **scarce), rungs(hybrid_bearing))
