@@ -97,12 +97,17 @@ def test_a_contact_becomes_a_line_a_roller_or_an_ellipse_under_the_same_pressure
 
 def test_a_roller_becomes_a_piece_that_goes_on_or_tilts_by_a_moment():
     case, _, items = controls_of("roller")
-    of_a_whole = {"contact.tilt|", "contact.tilt", "contact.tilting_moment", "contact.profile"}
+    of_a_whole = {
+        "contact.tilting_moment|tilt",
+        "contact.tilt",
+        "contact.tilting_moment",
+        "contact.profile",
+    }
     expected = {
         ("contact.ends", "mirrored"): set(),
         ("contact.ends", "open"): of_a_whole - {"contact.tilting_moment"},
-        ("contact.tilt|", "tilting_moment"): of_a_whole - {"contact.tilt"},
-        ("contact.tilt|", "tilt"): of_a_whole - {"contact.tilting_moment"},
+        ("contact.tilting_moment|tilt", "tilting_moment"): of_a_whole - {"contact.tilt"},
+        ("contact.tilting_moment|tilt", "tilt"): of_a_whole - {"contact.tilting_moment"},
         ("contact.type", "point"): set(),
     }
     for (path, option), paths in expected.items():

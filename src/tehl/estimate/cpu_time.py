@@ -84,8 +84,8 @@ def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
     """Return the CPU time of a solve to expect on one core of this machine [s].
 
     The constants are a fit to 70 contacts of machines with M = 0.5 to 33,000, most of them heated
-    or thinning (``python -m benchmarks.machines``). Of 31 others 23 take half to twice as long:
-    fallbacks and further grids take longer.
+    or thinning (``python -m benchmarks.machines``). Of 288 others (M to 220,000) 243 take half to
+    twice as long: fallbacks and further grids take longer.
 
     Parameters
     ----------

@@ -137,7 +137,7 @@ def roller_ends(state: State) -> Choice | None:
     return _choice(path, "ends of the roller", contact.ends, options)
 
 
-def is_whole_roller(state: State, _: str = "") -> bool:
+def is_whole_roller(state: State) -> bool:
     """Return whether the contact is a roller with both its ends."""
     contact = state.problem.contact
     return contact.type == "roller" and contact.ends == "open"
@@ -147,16 +147,10 @@ def roller_tilt(state: State) -> Choice | None:
     """Return the choice of what tilts a roller."""
     if not is_whole_roller(state):
         return None
-    contact = state.problem.contact
-    least = f"{0.02 * state.problem.load * (contact.length or 0.0):.2g} N m"  # both ends carry
-    stated: dict[str, tuple[str, Any]]
-    stated = {"tilt": ("angle", None), "tilting_moment": ("moment of the load", least)}
-    without = {"contact.tilt": None, "contact.tilting_moment": None}
-    options = {
-        key: (name, without | {f"contact.{key}": value}) for key, (name, value) in stated.items()
-    }
-    chosen = "tilt" if contact.tilting_moment is None else "tilting_moment"
-    return _choice("contact.tilt|", "tilt given as", chosen, options)
+    length = state.problem.contact.length or 0.0
+    moment = f"{0.02 * state.problem.load * length:.2g} N m"  # both ends carry
+    stated = {"tilting_moment": ("moment of the load", moment), "tilt": ("angle", None)}
+    return _one_of(state, "tilt given as", stated)
 
 
 def roller_profile(state: State) -> Choice | None:

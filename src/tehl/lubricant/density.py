@@ -11,6 +11,9 @@ from tehl.lubricant.registered import RegisteredLaws
 from tehl.lubricant.tait import TaitDensity
 from tehl.lubricant.trial import try_density
 
+LARGEST_LOSS = 0.9
+"""Most of the ambient density that heat may take, far beyond where a law holds."""
+
 
 class DowsonHigginson(DensityModel):
     r"""Dowson and Higginson's law, with a linear fall with temperature.
@@ -52,7 +55,7 @@ class DowsonHigginson(DensityModel):
         ratio = 1.0 + self.slope * pressure / (1.0 + self.saturation * pressure)
         if self.beta > 0:
             warmer = temperature - self.reference_temperature
-            loss = limited(self.beta * warmer, -math.inf, 0.9)  # far beyond where a law holds
+            loss = limited(self.beta * warmer, -math.inf, LARGEST_LOSS)
             ratio = ratio - loss if self.form == "additive" else ratio * (1.0 - loss)
         return self.rho_0 * ratio
 

@@ -12,6 +12,8 @@ from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
 ROELANDS_OFFSET = 9.67  # -ln of 6.31e-5 Pa s, the viscosity at Roelands' common point
 ROELANDS_PRESSURE = 1.96e8  # [Pa], in the definition of z
 PER_ROELANDS_PRESSURE = 5.1e-9  # [1/Pa], in the bracket: the rounded 1/1.96e8
+LEAST_THETA = 0.01
+"""Least ``(T - 138)/(T_0 - 138)``: Roelands' law ends at 138 K."""
 _ROELANDS_TEMPERATURE = 138.0  # [K]
 
 
@@ -130,8 +132,7 @@ class Roelands(_RoelandsPressure):
 
     def _theta(self, temperature: Any) -> Any:
         above = self.reference_temperature - _ROELANDS_TEMPERATURE
-        # Roelands' law ends at 138 K
-        return limited((temperature - _ROELANDS_TEMPERATURE) / above, 0.01)
+        return limited((temperature - _ROELANDS_TEMPERATURE) / above, LEAST_THETA)
 
     def _thinner(self, temperature: Any) -> Any:
         return self._theta(temperature) ** -self.temperature_index

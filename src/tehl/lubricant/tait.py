@@ -31,6 +31,8 @@ LEAST_VOLUME = 0.2
 """Least part of a volume that the equations of this module compress or cool to."""
 LEAST_MODULUS = 0.02
 """Least part of the bulk modulus that heat leaves: the exponential is one of moderate heat."""
+LEAST_FREE = 1e-4
+"""Least free volume, in units of the reference volume: the oil is a glass long before."""
 
 Slope = Annotated[float, Field(gt=0.0, le=100.0, allow_inf_nan=False, examples=[11.0])]
 
@@ -111,7 +113,7 @@ class TaitDoolittle(ViscosityModel):
 
     def _free(self, pressure: Any, temperature: Any) -> Any:
         volume = _relative_volume(self, pressure, temperature)
-        return limited(volume - self._core(temperature), 1e-4)  # the oil is a glass long before
+        return limited(volume - self._core(temperature), LEAST_FREE)
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].

@@ -34,6 +34,10 @@ NEAR_EDGE_RATIO, LEAST_DOMAIN_ERROR = 0.95, 0.005
 film by zero pressure on the edges from which on it is."""
 LEAST_CONFORMITY, LARGEST_CONFORMITY = 1.005, 1.25
 """Radius of the groove of a bearing over that of its ball: conformities of 0.5025 to 0.625."""
+MOLECULAR = 5e-9
+"""Film below which the oil is not a continuum [m]."""
+STEEP_SLOPE = 0.1
+"""Slope from which on Reynolds' equation does not hold."""
 STEEP_HEIGHTS = 0.6
 """Rms pressure that flattens the heights over p_h, from which on runs may not converge: of random
 surfaces (M = 16 to 500) 0.41 and 0.56 take a second, 0.64 with heat minutes, of those with 0.79 and
@@ -248,7 +252,7 @@ def _about_film(scaled: ScaledProblem) -> Iterator[str]:
     film, rough = likely_film(scaled).central_m, scaled.problem.rms_roughness
     if scaled.problem.asperities is not None:
         rough = 0.0  # they are computed
-    if film < 5e-9:  # [m], where the oil is not a continuum
+    if film < MOLECULAR:
         yield (
             f"the expected film of {film * 1e9:.2g} nm is a few molecules: the oil is not a "
             "continuum there, check speed and viscosity"
@@ -399,7 +403,7 @@ def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -
             f"converge; {enough} put {CONVERGES} on it, {better} the {RESOLVES} that its ripples "
             "need"
         )
-    if found.steepest > 0.1:  # where Reynolds' equation does not hold
+    if found.steepest > STEEP_SLOPE:
         yield (
             f"the surfaces have slopes up to {found.steepest:.2g}: Reynolds' equation needs small "
             "ones, check the units of height and length"

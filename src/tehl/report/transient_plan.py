@@ -22,6 +22,10 @@ TOUCHING_PER_STEP, TOUCHING_PER_NODE = 0.08, 1.5e-5
 node takes twice as long."""
 FEWEST_POINTS = 16.0
 """Points per wave below which the amplitude of a passing wave is off by some per cent."""
+LARGEST_PART = 0.25
+"""Largest distance that a surface moves per step, over its shortest wave."""
+LARGEST_LEAD = 1.0
+"""Mesh widths per step by which a surface may move ahead of the mean motion or behind it."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -123,15 +127,13 @@ def _questions(
                 f"more than the film does; take {FEWEST_POINTS:g} or more (numerics.points)"
             )
         lead = abs(shift - stride)
-        # mesh widths per step, ahead of the mean motion or behind it
-        if math.isfinite(one) and lead > 1.0:
+        if math.isfinite(one) and lead > LARGEST_LEAD:
             where = "ahead of" if shift > stride else "behind"
             yield (
                 f"{name} moves {lead:.2g} mesh widths per step {where} the mean motion, so its "
                 f"asperities jump: take a smaller transient.stride (now {stride})"
             )
-        # of the shortest wave, per step
-        if shift > 0.25 * one:
+        if shift > LARGEST_PART * one:
             yield (
                 f"{name} moves by {shift / one:.2g} of its shortest wave per step: solve accepts "
                 "at most a quarter, and filters such waves off a measured or random surface"

@@ -3,6 +3,9 @@
 import math
 from dataclasses import dataclass
 
+MOST_LOST = 0.1
+"""Part of the variance of the heights that a grid may lose without a warning."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Resolution:
@@ -25,7 +28,7 @@ class Resolution:
     @property
     def warning(self) -> str | None:
         """Return a sentence if more than `MOST_LOST` of the variance is lost."""
-        if not self.lost_share > 0.1:  # of the variance, without a warning
+        if not self.lost_share > MOST_LOST:
             return None
         whole, kept = (1e9 * math.hypot(*one) for one in (self.sq, self.kept))
         return (

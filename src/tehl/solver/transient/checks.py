@@ -20,6 +20,7 @@ from tehl.operators.heights import MovingHeights, check_nodes, rounded_up
 
 LEAST_STEPS = 4.0
 """Time steps per passing wave below which the wave is aliased."""
+TIME_ROUNDING = 1e-9
 LARGEST_PEAK_ERROR = 0.25
 """Largest error of a peak at the nearest step, over the whole change of the table."""
 
@@ -91,7 +92,7 @@ def check_waves(heights: MovingHeights, grid: Grid, schedule: Schedule, stride: 
         ("surface_1", "surface_2"), heights.waves_per_length, fastest, strict=True
     ):
         part = waves * speed * stride * grid.dx
-        if part * LEAST_STEPS > 1.0 + 1e-9:
+        if part * LEAST_STEPS > 1.0 + TIME_ROUNDING:
             smaller = f", or reduce transient.stride (now {stride})" if stride > 1 else ""
             raise InputError(
                 f"{name}.roughness: moves by {part:.3g} of its shortest wave per time step and "

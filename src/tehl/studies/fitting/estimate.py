@@ -29,10 +29,26 @@ from tehl.studies.fitting.model import Model
 
 CONFIDENCE = 0.95
 """Probability of the intervals."""
+_LEAST_CURVATURE = 1e-8
+"""Added to the sum of squares over the logarithms, so that constants without effect are open."""
 _NORMAL_DEGREES = 1e6
 """Degrees of freedom from which on t is normal."""
+_NOISE_ROUNDS = 6
+"""Most repetitions of noise and constants."""
+_SAME_NOISE = 0.02
+"""Relative change at which the noise is known well enough."""
+_LEAST_NOISE = 1e-4
+"""Noise over the largest value of its kind: less is that of the solver."""
+_FIRST_NOISE = 0.03
+"""Noise over the value, or over the largest one, with which the fit begins."""
 _LEAST_DECREASE = 1e-3
 """Relative decrease of the sum of squares, or change of the constants, at which a fit stops."""
+_MOST_EVALUATIONS = 40
+"""Of the sum of squares in one minimisation."""
+_PROFILE_ROUNDS = 6
+"""Most places at which an end of an interval is sought."""
+_PROFILE_ACCURACY = 0.1
+"""Relative error of the distance of an end that a linear step may still remove."""
 _LARGEST_END_FACTOR = 3.0
 """Largest growth of the distance of an end in one step."""
 
@@ -80,20 +96,18 @@ def estimate(model: Model, measured: Array, stated: Array) -> Estimate:
     unit = np.where([KINDS[kind].is_relative for kind in kinds], measured, 1.0)
     noises = {kind: _first_noise(kind, measured[kinds == kind]) for kind in unknown}
     x, noise = np.zeros(len(model.constants)), stated
-    for _ in range(6):  # most repetitions of noise and constants
+    for _ in range(_NOISE_ROUNDS):
         drawn = np.array([noises.get(kind, np.nan) for kind in kinds]) * unit
         noise = np.where(np.isnan(stated), drawn, stated)
         x = _minimised(model, x, measured, noise)
         before, noises = noises, _noises(model, x, measured, noise, noises)
-        # the noise is known well enough
-        if all(abs(math.log(noises[kind] / before[kind])) < 0.02 for kind in unknown):
+        if all(abs(math.log(noises[kind] / before[kind])) < _SAME_NOISE for kind in unknown):
             break
     values, jacobian = model.values(x), model.jacobian(x) / noise[:, None]
     residual = (values - measured) / noise
     left = measured.size - x.size
     scatter = float(residual @ residual) / left if left else 1.0
-    # a little is added, so that constants without effect are open
-    inverse = np.linalg.inv(jacobian.T @ jacobian + 1e-8 * np.eye(x.size))
+    inverse = np.linalg.inv(jacobian.T @ jacobian + _LEAST_CURVATURE * np.eye(x.size))
     gain = inverse @ jacobian.T
     found = Estimate(
         x=x,
@@ -147,8 +161,7 @@ def _check_number(model: Model, kinds: Array, unknown: list[str]) -> None:
 
 
 def _first_noise(kind: str, values: Array) -> float:
-    # the fit begins with 3 % of the value, or of the largest one
-    return 0.03 * (1.0 if KINDS[kind].is_relative else float(np.abs(values).max()) or 1.0)
+    return _FIRST_NOISE * (1.0 if KINDS[kind].is_relative else float(np.abs(values).max()) or 1.0)
 
 
 def _minimised(model: Model, start: Array, measured: Array, noise: Array) -> Array:
@@ -170,7 +183,7 @@ def _minimised(model: Model, start: Array, measured: Array, noise: Array) -> Arr
         bounds=(low, high),
         ftol=_LEAST_DECREASE,
         xtol=_LEAST_DECREASE,
-        max_nfev=40,  # of the sum of squares in one minimisation
+        max_nfev=_MOST_EVALUATIONS,
     )
     return np.asarray(found.x)
 
@@ -196,8 +209,7 @@ def _noises(
         left = max(float(freedom[chosen].sum()), 0.5)
         noisy = before * math.sqrt(float(residual[chosen] @ residual[chosen]) / left)
         largest = 1.0 if KINDS[kind].is_relative else float(np.abs(measured[chosen]).max())
-        # less is that of the solver
-        found[kind] = max(noisy, 1e-4 * largest)
+        found[kind] = max(noisy, _LEAST_NOISE * largest)
     return found
 
 
@@ -210,7 +222,7 @@ def _end(model: Model, measured: Array, found: Estimate, k: int, quantile: float
     step = math.copysign(math.sqrt(found.covariance[k, k]), quantile) * abs(quantile)
     low, high = limits(model)
     grown = 0.0
-    for _ in range(6):  # most places at which an end of an interval is sought
+    for _ in range(_PROFILE_ROUNDS):
         place = min(max(found.x[k] + step, low[k]), high[k])
         step = place - found.x[k]
         grown = _profile(model, measured, found, k, found.x + step * along) - least
@@ -221,8 +233,7 @@ def _end(model: Model, measured: Array, found: Estimate, k: int, quantile: float
             break
         ratio = math.sqrt(target / grown) if grown > 0 else _LARGEST_END_FACTOR
         step *= min(ratio, _LARGEST_END_FACTOR)
-        # a linear step removes the rest
-        if abs(ratio - 1.0) < 0.1:
+        if abs(ratio - 1.0) < _PROFILE_ACCURACY:
             return float(found.x[k] + step)
     return float(found.x[k] + step) if grown > target else math.copysign(math.inf, quantile)
 

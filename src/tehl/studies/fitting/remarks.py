@@ -15,9 +15,20 @@ from tehl.studies.fitting.estimate import Estimate
 if TYPE_CHECKING:
     import pandas as pd
 
+_WIDE_INTERVAL = 4.0
+"""Upper over lower end from which on a constant is not determined."""
+_LARGEST_CORRELATION = 0.99
+"""Correlation beyond which only a combination of two constants is determined."""
+_NEARLY_LIMITED = 0.8
+"""Largest stress over the limiting one, below which the limit is not seen."""
+_OUTLIER = 3.5
+"""Residual over the noise of a point that is named."""
 _LEAST_DURBIN_WATSON, _FEWEST_IN_ORDER = 1.0, 6
 """Mean square of the steps between residuals over that of the residuals, 2 for random ones, below
 which they follow a curve; values from which on it is judged."""
+_LARGEST_SCATTER = 4.0
+"""Mean square of the residuals over the stated noise that the model may have."""
+_MOST_OUTLIERS = 5
 
 
 def remarks(
@@ -43,8 +54,7 @@ def remarks(
         Largest shear stress over that of the shear law [-].
     """
     for one in constants:
-        # such a constant is not determined
-        if one.high >= 4.0 * one.low:
+        if one.high >= _WIDE_INTERVAL * one.low:
             why = _why_open(one.constant.name, reached)
             yield f"the data do not determine {one.constant.name}: {one.interval}{why}"
         elif one.grid_error > 0.5 * math.log(one.high / one.low):
@@ -53,15 +63,13 @@ def remarks(
                 "smaller numerics.error"
             )
     for (i, first), (k, second) in combinations(enumerate(constants), 2):
-        # only a combination of both constants is determined
-        if abs(correlation[i, k]) > 0.99:
+        if abs(correlation[i, k]) > _LARGEST_CORRELATION:
             yield (
                 f"{first.constant.name} and {second.constant.name} are correlated by "
                 f"{correlation[i, k]:.4f}: the data determine a combination of both only; fit one "
                 "of them, or add points at another condition"
             )
-    # mean square of the residuals over the stated noise
-    if set(table["kind"]) - set(found.noises) and found.scatter > 4.0:
+    if set(table["kind"]) - set(found.noises) and found.scatter > _LARGEST_SCATTER:
         yield (
             f"the points scatter {math.sqrt(found.scatter):.1f} times as far as the stated noise: "
             "case or law miss something; the intervals are widened by that factor"
@@ -71,8 +79,7 @@ def remarks(
 
 def _why_open(name: str, reached: float) -> str:
     """Return why a constant of a shear law stays open; empty if the stress is not the reason."""
-    # of the limiting stress: the limit is not seen
-    if name.startswith("limiting") and reached < 0.8:
+    if name.startswith("limiting") and reached < _NEARLY_LIMITED:
         return f"; the largest stress is {percentage(reached)} of the limit, which is not reached"
     if name.startswith(("eyring", "carreau")) and reached < 1.0:
         return f"; the largest stress is {percentage(reached)} of it, so that the oil hardly thins"
@@ -89,8 +96,8 @@ def _of_residuals(table: "pd.DataFrame") -> Iterator[str]:
                 f"the residuals of {kind} follow a curve (Durbin-Watson {steps:.2f}, random ones "
                 "have 2): case or law miss something, and the intervals are too narrow"
             )
-    far = table[table["residual"].abs() > 3.5]  # times the noise
-    for _, row in far.head(5).iterrows():
+    far = table[table["residual"].abs() > _OUTLIER]
+    for _, row in far.head(_MOST_OUTLIERS).iterrows():
         yield (
             f"{row['point']}: {row['kind']} is {abs(row['residual']):.1f} times the noise off the "
             "fit: check the point, or remove it"

@@ -26,6 +26,10 @@ _CURVES = ("FILM", "TRACTION", "STRIBECK")
 _PROBES: dict[Probe, re.Pattern[str]] = {
     probe: re.compile(rf"{probe}\b.*\btemp\b.*", re.IGNORECASE) for probe in ("lube", "pot")
 }
+_LARGEST_RIG_FILE = 50_000_000
+"""Bytes of a file."""
+_LARGEST_DIFFERENCE = 20.0
+"""Temperatures of both probes [K] beyond which one of them is not in the oil."""
 
 Row = tuple[int, dict[str, str]]
 """Number of a line, and its cells by heading."""
@@ -64,7 +68,7 @@ def rig_lines(path: Path, probe: Probe | None = None) -> list[tuple[int, list[An
 def _text(path: Path) -> str | None:
     """Return the text of a file; None if it is missing, too large or not a text."""
     try:
-        if path.stat().st_size > 50_000_000:  # bytes of a file
+        if path.stat().st_size > _LARGEST_RIG_FILE:
             return None
         content = path.read_bytes()
     except OSError:
@@ -101,8 +105,7 @@ def _cells(found: dict[str, str], number: int, path: Path, probe: Probe | None) 
         for name, pattern in _PROBES.items()
     }
     lube, pot = degrees["lube"], degrees["pot"]
-    # 20 K apart, one of the probes is not in the oil
-    if probe is None and lube and pot and abs(float(lube) - float(pot)) > 20.0:
+    if probe is None and lube and pot and abs(float(lube) - float(pot)) > _LARGEST_DIFFERENCE:
         raise InputError(
             f"{shortened(path)}: line {number}: the probe of the lubricant has {lube} °C and that "
             f"of the pot {pot} °C: state which is that of the oil, lube or pot (--probe pot)"
