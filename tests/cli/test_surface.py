@@ -167,7 +167,9 @@ def test_the_picture_has_map_histogram_and_spectrum(tmp_path, shape):
     ("arguments", "words"),
     [
         (("{}",), "does not state the unit"),
+        (("{}",), 'give --unit "um"'),
         (("{}", "--unit", "um"), "how far its points are apart"),
+        (("{}", "--unit", "um"), 'give --pixel "2 um", or --size "1 mm, 1 mm"'),
         (("{}", "--unit", "kg"), 'unit = "kg": is not a unit of length'),
         (("{}", *STATED, "--level", "flat"), 'level = "flat": unknown; known are none'),
         (("{}", *STATED, "--set", "shape=1"), "shape is not a known key"),

@@ -1,6 +1,7 @@
 # ruff: noqa: ARG001 (fixtures that prepare and are not read)
 """``tehl solve`` of a case with time, killed and resumed; pictures and moving pictures of it."""
 
+import itertools
 import json
 import os
 import signal
@@ -18,6 +19,7 @@ from tehl.cli.checkpoint import STEPS, Keeper
 from tehl.io.checkpoint import Fingerprint
 from tehl.plots import animation
 from tehl.result.solution import Hint, Status
+from tehl.solver.cost import Clock
 from tests.cli.ball import names
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_certified, make_transient
@@ -194,6 +196,22 @@ def test_an_unfinished_run_is_stored_marked_and_exits_with_1(folder, run, solved
     assert "they touch" in done.err
     assert "hint: go faster" in done.err
     assert tehl.load("wave.nc").status == status
+
+
+def test_a_run_that_ends_at_its_time_is_continued_for_as_long_again(folder, run, monkeypatch):
+    ticks = itertools.count()
+    monkeypatch.setattr(Clock, "seconds", property(lambda _: float(next(ticks))))
+    stated = ("solve", "wave.toml", "--set", "numerics.max_time=9")
+    done = run(*stated)
+    assert done.code == 1
+    assert "numerics.max_time = 9 s is over at " in done.err
+    assert "is saved in wave.nc.checkpoint; tehl solve --resume continues from it" in done.err
+    first = tehl.load("wave.nc")
+    assert first.status.cause == "time_over"
+    assert steps_in("wave.nc.checkpoint") == first.history.time.size > 2
+    ticks = itertools.count()
+    assert run(*stated, "--resume").code == 1
+    assert tehl.load("wave.nc").history.time.size > first.history.time.size + 2
 
 
 def test_a_start_that_does_not_converge_is_stored_and_exits_with_1(folder, run, solved):

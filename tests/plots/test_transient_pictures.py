@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from tehl.api.problem import ContactProblem
 from tehl.base.errors import InputError
 from tehl.plots import save_all, transient
 from tehl.plots.animation import Movie, animate
 from tehl.result.solution import Status
+from tests.fixtures_result import CASE
 from tests.fixtures_transient import make_certified, make_transient
 
 
@@ -40,6 +42,20 @@ def test_a_load_that_changes_has_its_panel():
     changed = replace(run, history=replace(run.history, load=load))
     drawn = transient.history(changed).axes[3].lines[0].get_ydata()
     assert drawn[-1] == pytest.approx(1.2 * 80.0)
+
+
+def test_the_load_of_a_line_is_drawn_per_millimetre():
+    contact = {key: CASE["contact"][key] for key in ("entrainment_speed", "slide_roll_ratio")}
+    contact |= {"type": "line", "radius": "10 mm", "load_per_length": "80 N/mm"}
+    line = ContactProblem.model_validate(CASE | {"contact": contact})
+    run = make_transient()
+    load = np.linspace(1.0, 1.2, len(run.history.time))
+    changed = replace(
+        run, history=replace(run.history, load=load), start=run.start.but(problem=line)
+    )
+    axes = transient.history(changed, title=False).axes[3]
+    assert axes.get_ylabel() == "load [N/mm]"
+    assert axes.lines[0].get_ydata()[0] == pytest.approx(80.0)
 
 
 def test_paths_of_both_surfaces_meet_where_the_dent_is_in_the_middle():

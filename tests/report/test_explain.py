@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from tehl import InputError, solve
 from tehl.api.problem import case_from_tables
 from tehl.contact.options import Options
 from tehl.estimate.film_formulas import expected_central_film
@@ -178,6 +179,16 @@ def test_a_solid_without_thermal_properties_has_no_expected_heat():
 @pytest.mark.parametrize(("change", "value", "words"), ODD)
 def test_an_implausible_value_is_reported(change: str, value: object, words: str):
     assert any(words in question for question in explained(change, value).questions)
+
+
+def test_a_film_thicker_than_the_bodies_is_reported_and_not_solved():
+    tables = copy.deepcopy(ball_tables())
+    tables["contact"]["entrainment_speed"] = 1500.0
+    tables["lubricant"]["viscosity"]["eta_0"] = 40.0
+    problem, options = case_from_tables(tables)
+    assert any("smaller reduced radius" in text for text in explain(problem, options).questions)
+    with pytest.raises(InputError, match=r"contact: the film to expect, .* mm, is .* check the"):
+        solve(problem, options)
 
 
 @pytest.mark.parametrize(("load", "speed"), [(2000, 20), (20000, 10)])

@@ -10,6 +10,7 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import ConvergenceError, TransientResult
 from tehl.contact.options import Domain, Options
 from tehl.estimate.scaling import scales
+from tehl.solver.cost import Clock
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import pack, unpack
@@ -378,6 +379,19 @@ def test_an_unreachable_tolerance_is_reported():
     assert run.status.cause == "step_not_settled"
     assert "Set transient.tolerance = 1e-06: " in str(run.status.hint)
     assert "asperities" not in str(run.status.hint)
+
+
+def test_a_run_ends_at_the_time_that_is_stated_and_continues_from_there(monkeypatch):
+    case, kept = in_time(0.5), []
+    monkeypatch.setattr(Clock, "seconds", property(lambda _: float(len(kept))))
+    stated = OPTIONS.model_copy(update={"max_time": 2.5})
+    run = solve_transient(case, stated, keep=lambda snapshot: kept.append(snapshot.copy()))
+    assert run.status.cause == "time_over"
+    assert run.history.time.size == 1 + 3
+    assert "numerics.max_time = 2.5 s is over at " in str(run.status.message)
+    whole = solve_transient(case, OPTIONS, resume=kept[-1])
+    assert whole.status.converged
+    assert whole.history.film_central[:4] == pytest.approx(run.history.film_central, rel=0.0)
 
 
 @pytest.mark.parametrize(("cause", "change"), [("stalled", 1e-3), ("diverged", 1e-9)])

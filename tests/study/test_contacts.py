@@ -15,7 +15,7 @@ from tehl.estimate.settled import settled
 from tehl.io.templates import template_text
 from tehl.studies import Store
 from tehl.studies.answers import answers, values_of
-from tehl.studies.case import Case
+from tehl.studies.case import Case, Row
 from tehl.studies.contacts import contacts_of, read_contacts, tables_of, template_tables
 from tehl.studies.headings import column_of
 
@@ -255,6 +255,23 @@ def test_answers_are_taken_in_parts(tmp_path, template, monkeypatch):
     monkeypatch.setattr("tehl.studies.answers._CHUNK", 3)
     assert [line["status"] for line in answers(contacts, Store(tmp_path / "s"))] == ["open"] * 7
     assert asked == [3, 3, 1]
+
+
+def test_an_answer_that_a_row_states_itself_is_not_repeated(tmp_path, template, monkeypatch):
+    path = tmp_path / "list.csv"
+    path.write_text("Hertz pressure (GPa),load [N]\n0.8,\n,20\n")
+    contacts = read_contacts(path, template)
+    numbers = {"groups.hertz_pressure_pa": 8e8, "film.h_central_m": 1e-7}
+
+    def rows(_, cases: list[Case]):
+        return {case.key: Row(key=case.key, status="converged", summary=numbers) for case in cases}
+
+    monkeypatch.setattr(Store, "rows", rows)
+    first, second = answers(contacts, Store(tmp_path / "s"))
+    assert first["Hertz pressure (GPa)"] == "0.8"
+    assert "Hertz pressure [GPa]" not in first
+    assert second["Hertz pressure [GPa]"] == pytest.approx(0.8)
+    assert first["central film [nm]"] == second["central film [nm]"] == pytest.approx(100.0)
 
 
 def test_films_of_a_list_without_a_template_have_the_default_error():

@@ -82,13 +82,17 @@ class Keeper(Generic[State]):
         try:
             yield
         except (KeyboardInterrupt, SystemExit, MemoryError):
-            if self.write() and self.last is not None:
-                show(
-                    f"tehl: {self._where(self.last)} is saved in {self.path}; tehl solve --resume "
-                    "continues from it",
-                    err=True,
-                )
+            self.leave()
             raise
+
+    def leave(self) -> None:
+        """Write the last state, and show how to continue from it."""
+        if self.write() and self.last is not None:
+            show(
+                f"tehl: {self._where(self.last)} is saved in {self.path}; tehl solve --resume "
+                "continues from it",
+                err=True,
+            )
 
     def begin(self, *, resume: bool) -> State | None:
         """Return the state to continue from, None at time zero.

@@ -25,6 +25,7 @@ from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.io.checkpoint import checkpoint_of, fingerprint
 from tehl.io.store import save
+from tehl.result.transient import TIME_OVER
 
 if TYPE_CHECKING:
     from tehl.cli import checkpoint as checkpoints
@@ -78,7 +79,8 @@ def run(job: Job) -> bool:
     with busy(f"writing {job.target}", quiet=job.quiet):
         save(result, job.target)
     compared = Comparisons()
-    if isinstance(result, TransientResult) or (problem.has_passes and failure is None):
+    is_whole = isinstance(result, TransientResult) and result.status.cause != TIME_OVER
+    if is_whole or (problem.has_passes and failure is None):
         remove_with_parts(checkpoint_of(job.target))
     elif references and failure is None:
         compared = _compared(result, references, job)
@@ -160,7 +162,10 @@ def _resumable(problem: ContactProblem, options: Options, job: Job) -> Result | 
             return solve_passes(problem, options, monitor=monitor, resume=start, keep=keep)
         if job.certify:
             return certify_transient(problem, options, monitor=monitor)
-        return solve_transient(problem, options, monitor=monitor, resume=start, keep=keep)
+        result = solve_transient(problem, options, monitor=monitor, resume=start, keep=keep)
+    if result.status.cause == TIME_OVER:
+        keep.leave()
+    return result
 
 
 def _compared(result: Result, cases: dict[str, ContactProblem], job: Job) -> Comparisons:

@@ -1,6 +1,7 @@
 """``tehl surface``: a measured surface at a glance."""
 
 import json
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -27,6 +28,10 @@ if TYPE_CHECKING:
     from tehl.roughness.preview import Mesh, Preview
 
 _ROUGHNESS = ("Sq_m", "Sa_m", "Sz_m", "Ssk", "Sku", "Sdq")
+_OPTIONS = ("unit", "pixel", "size", "level")
+"""Keys of a map that are options of the command; the others are stated by ``--set``."""
+_KEY = re.compile(r'(?P<key>\w+) = (?P<value>".*?"|\[.*?\])')
+"""A key with its value in a message."""
 _INFINITE_LENGTH = 1e300
 """Lengths beyond are infinite [m]."""
 _LEVELS = {
@@ -70,10 +75,14 @@ def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
     """Show a measured surface: size, unit, roughness, spectrum, and what a grid resolves of it."""
     if output is not None:
         check_writable(output, sources=(file,))
-    stated = {"unit": unit, "pixel": _pair(pixel), "size": _pair(size), "level": level}
+    values = (unit, _pair(pixel), _pair(size), level)
+    stated = dict(zip(_OPTIONS, values, strict=True))
     keys = {key: value for key, value in stated.items() if value is not None}
     mesh = _mesh(contact, half_width, points)
-    found = previews.preview(_map(file, keys, overrides), mesh)
+    try:
+        found = previews.preview(_map(file, keys, overrides), mesh)
+    except InputError as error:
+        raise InputError(_with_options(str(error))) from None
     if as_json:
         echo(json.dumps(as_summary(found)))
     else:
@@ -82,6 +91,17 @@ def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
         with replacing(output) as temporary:
             surface_pictures.surface_preview(found).savefig(temporary, dpi=150, format="png")
         echo(output, err=as_json)
+
+
+def _with_options(message: str) -> str:
+    """Return a message that says how the command, in place of a case, states what is missing."""
+    text, give, advice = message.partition(": give ")
+    return text + give + _KEY.sub(_as_option, advice)
+
+
+def _as_option(stated: re.Match[str]) -> str:
+    key, value = stated["key"], ", ".join(re.findall(r'"(.*?)"', stated["value"]))
+    return f'--{key} "{value}"' if key in _OPTIONS else f'--set {key}="{value}"'
 
 
 def _pair(text: str | None) -> list[str] | str | None:

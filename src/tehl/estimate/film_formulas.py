@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal, get_args
 
+from tehl.base.errors import InputError
 from tehl.estimate.formula import Asymptotes, FilmRatio, Formula, Regime
 from tehl.estimate.line_formulas import LINE_FORMULAS, line_asymptotes, moes_line
 from tehl.estimate.scaling import Groups, ScaledProblem, Scales
@@ -30,6 +31,10 @@ FULL_FILM, BOUNDARY = 3.0, 1.0
 FULL_FILM_SHARE, BOUNDARY_SHARE = 0.01, 0.9
 """Part of the load on asperities below which the film is full, and from which on they are said to
 carry the load: where asperities are computed, lambda is not asked."""
+
+THICKEST = 0.1
+"""Largest film over the reduced radius: the gap is ten times as wide at ``sqrt(18 h R)``, which is
+then 1.3 R, beyond the body."""
 
 LEAST_FORMULA_RATIO, LARGEST_FORMULA_RATIO = 0.7, 1.4
 """R_x/R_y below and above which the formulas for the minimum film lose accuracy.
@@ -168,6 +173,35 @@ def likely_film(scaled: ScaledProblem) -> FilmEstimate:
     """Return the film by the first formula whose range has the contact; of [3]_ if none has it."""
     films = film_estimates(scaled.groups, scaled.scales)
     return next((film for film in films if film.valid), films[0])
+
+
+def film_over_radius(scaled: ScaledProblem) -> float:
+    """Return the film to expect over the smaller reduced radius [-]."""
+    problem = scaled.problem
+    across = math.inf if problem.contact.has_lines else abs(problem.radius_y)
+    return likely_film(scaled).central_m / min(problem.radius_x, across)
+
+
+def check_film(scaled: ScaledProblem) -> None:
+    """Check that the film is thin beside the bodies.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        A starved one passes, whose film is that of the supply.
+
+    Raises
+    ------
+    InputError
+        If the film to expect is thicker than `THICKEST` reduced radii.
+    """
+    part = film_over_radius(scaled)
+    if scaled.problem.supply is None and part > THICKEST:
+        raise InputError(
+            f"contact: the film to expect, {1e3 * likely_film(scaled).central_m:.3g} mm, is "
+            f"{part:.2g} times the smaller reduced radius, and lubrication theory needs less than "
+            f"{THICKEST:g}: check the units of viscosity, speed, load and radius"
+        )
 
 
 def regime(groups: Groups) -> Regime:

@@ -51,11 +51,12 @@ def history(run: TransientSolution, *, title: bool | None = True) -> Figure:
     if numbers.asperity_load.max() > 0:
         curves.append((_carried_by(run), numbers.asperity_load, "#b8560f"))
     problem = run.start.problem
-    mean, force = problem.entrainment_speed, "load [N/m]" if problem.contact.is_line else "load [N]"
+    mean = problem.entrainment_speed
+    force, newtons = ("load [N/mm]", 1e-3) if problem.contact.is_line else ("load [N]", 1.0)
     curves += [
         (label, values, "0.2")
         for label, values in (
-            (force, numbers.load * problem.load),
+            (force, numbers.load * problem.load * newtons),
             ("entrainment [m/s]", numbers.speed * mean),
             ("sliding [m/s]", numbers.sliding * mean),
             ("radius [mm]", 1e3 * numbers.radius * problem.radius_x),

@@ -82,17 +82,23 @@ def transient_plan(
     first, second = (min(wave[0] / dx, wave[1] / dy) for wave in waves)
     speeds = (problem.motion.speed_1, problem.motion.speed_2)
     shift = (transient.stride * speeds[0] / units.speed, transient.stride * speeds[1] / units.speed)
+    seconds, limit = (start + cost * nx * ny) * steps, options.max_time
+    ends = (
+        [f"numerics.max_time = {limit:g} s: the run takes about {seconds:.2g} s and may end early"]
+        if "max_time" in options.model_fields_set and seconds > limit
+        else []
+    )
     return TransientPlan(
         duration_s=duration,
         step_s=step,
         steps=steps,
-        seconds=(start + cost * nx * ny) * steps,
+        seconds=seconds,
         distance=_distance(scaled, step, steps),
         speeds_m_s=speeds,
         points_per_wave=tuple(one if math.isfinite(one) else None for one in (first, second)),
         shift_per_step=shift,
         changes=tuple(_changes(scaled, duration)),
-        questions=tuple(_questions(scaled, duration, (first, second), shift)),
+        questions=(*_questions(scaled, duration, (first, second), shift), *ends),
     )
 
 

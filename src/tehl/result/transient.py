@@ -7,6 +7,9 @@ from tehl.base.typing import Array, IntArray, SingleArray
 from tehl.result.bars import Estimate
 from tehl.result.solution import Cost, Provenance, Solution, Status
 
+TIME_OVER = "time_over"
+"""Cause of a run that ended early at ``numerics.max_time``."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class StepReport:

@@ -25,11 +25,15 @@ class Clock:
         self.before = NO_COST
         self._wall, self._cpu = time.perf_counter(), time.process_time()
 
+    @property
+    def seconds(self) -> float:
+        """Wall time from the start of this part [s]."""
+        return time.perf_counter() - self._wall
+
     def cost(self) -> Cost:
         """Return the cost so far."""
         return self.before + Cost(
-            cpu_seconds=time.process_time() - self._cpu,
-            wall_seconds=time.perf_counter() - self._wall,
+            cpu_seconds=time.process_time() - self._cpu, wall_seconds=self.seconds
         )
 
 

@@ -16,6 +16,7 @@ from tehl.base.wording import grid_size
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import domain_of
+from tehl.estimate.film_formulas import check_film
 from tehl.estimate.memory import check_memory
 from tehl.estimate.nodes import finest_grid, planned
 from tehl.estimate.scaling import ScaledProblem
@@ -258,6 +259,7 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     goal = Goal(scaled, options, of_central=of_central)
     plan = goal.fitting(planned(scaled, options))
     check_supply(scaled, domain_of(scaled, plan))
+    check_film(scaled)
     check_memory(plan, problem)
     heights = heights_of(scaled, finest_grid(scaled, plan)) if rough else None
     # at other accuracies full multigrid is done before a better start saves a cycle

@@ -14,8 +14,8 @@ from tehl.base.wording import grid_size
 from tehl.result.quantity import Quantity
 from tehl.result.registry import shown_in
 from tehl.studies.case import Row
-from tehl.studies.contacts import Contacts, Listed, contacts_of, template_tables
-from tehl.studies.headings import Column
+from tehl.studies.contacts import Contacts, Listed, contacts_of, stated_in, template_tables
+from tehl.studies.headings import Column, column_of
 from tehl.studies.runner import QUIET, StudyMonitor, run
 from tehl.studies.store import Store, opened
 
@@ -54,7 +54,8 @@ def values_of(numbers: Mapping[str, Any]) -> dict[str, float]:
 def answers(contacts: Contacts, store: Store) -> Iterator[dict[str, Any]]:
     """Yield a line for each row: cells, answers with their bars, regime, and how it was obtained.
 
-    Rows are taken from the store in parts, so that the memory does not grow with the list.
+    An answer that the row states itself, such as its tilting moment, is left out. Rows are taken
+    from the store in parts, so that the memory does not grow with the list.
 
     Parameters
     ----------
@@ -76,7 +77,12 @@ def _line(row: Listed, columns: Sequence[Column], found: Row | None) -> dict[str
         one.heading: cell for one, cell in zip(columns, row.cells, strict=True) if one.heading
     }
     if found is not None and found.converged:
-        line |= values_of(found.summary)
+        stated = stated_in(columns, row.cells)
+        line |= {
+            name: value
+            for name, value in values_of(found.summary).items()
+            if column_of(name.removeprefix("± ")).key not in stated
+        }
         line["regime"] = found.summary.get("roughness.lubrication")
     line["status"] = "wrong row" if row.case is None else found.status if found else "open"
     line["obtained"] = row.message if row.case is None else _obtained(found)

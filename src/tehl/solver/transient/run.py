@@ -1,5 +1,6 @@
 """Transient runs: the steady film at time zero, then the time steps to the end."""
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 
@@ -20,7 +21,7 @@ from tehl.estimate.schedule import schedule_of
 from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import MovingHeights
 from tehl.result.solution import ConvergenceError, Hint, Solution, Status
-from tehl.result.transient import StepReport, TransientSolution
+from tehl.result.transient import TIME_OVER, StepReport, TransientSolution
 from tehl.solver.cost import Clock
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
@@ -99,6 +100,8 @@ class Run:
         monitor: StepMonitor,
     ) -> None:
         self.clock = Clock()
+        stated = "max_time" in options.model_fields_set
+        self.limit = options.max_time if stated else math.inf
         self.problem, self.transient = problem, transient
         self.scaled = scaled = ScaledProblem.of(problem)
         smooth = transient.start == "smooth"
@@ -137,7 +140,7 @@ class Run:
     def advance(
         self, monitor: StepMonitor, keep: Callable[[Snapshot], None] | None = None
     ) -> Status:
-        """Advance to the end, or until a step fails; return the status.
+        """Advance to the end, or until a step fails or the time is over; return the status.
 
         Parameters
         ----------
@@ -148,6 +151,8 @@ class Run:
         """
         for step in range(len(self.record.rows), self.steps + 1):
             time_now = step * self.seconds
+            if self.clock.seconds > self.limit:
+                return self._time_over(time_now - self.seconds)
             heights = self.heights.at(time_now, self.schedule.places(step))
             try:
                 end = self.stepper.step(heights[0] + heights[1], step)
@@ -286,6 +291,21 @@ class Run:
                 f"the last change of P is {error.change:.2g}. The steps before it are kept."
             ),
             hint=hint,
+        )
+
+    def _time_over(self, seconds: float) -> Status:
+        """Return ``time_over`` of a run that has come to ``seconds`` [s]."""
+        return Status(
+            kind="not_converged",
+            cause=TIME_OVER,
+            message=(
+                f"numerics.max_time = {self.limit:g} s is over at {seconds:.4g} of "
+                f"{self.steps * self.seconds:.4g} s of the run. The steps until then are kept."
+            ),
+            hint=Hint(
+                "Take a longer numerics.max_time, a larger transient.stride, fewer nodes "
+                "(numerics.points) or a shorter transient.duration."
+            ),
         )
 
     def _touching(self, seconds: float) -> Status:
