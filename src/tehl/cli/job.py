@@ -79,9 +79,9 @@ def run(job: Job) -> bool:
     with busy(f"writing {job.target}", quiet=job.quiet):
         save(result, job.target)
     compared = Comparisons()
-    is_whole = isinstance(result, TransientResult) and result.status.cause != TIME_OVER
-    if is_whole or (problem.has_passes and failure is None):
-        remove_with_parts(checkpoint_of(job.target))
+    if isinstance(result, TransientResult) or (problem.has_passes and failure is None):
+        if result.status.cause != TIME_OVER:
+            remove_with_parts(checkpoint_of(job.target))
     elif references and failure is None:
         compared = _compared(result, references, job)
     _show(result, compared, job)

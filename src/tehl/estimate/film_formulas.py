@@ -32,7 +32,7 @@ FULL_FILM_SHARE, BOUNDARY_SHARE = 0.01, 0.9
 """Part of the load on asperities below which the film is full, and from which on they are said to
 carry the load: where asperities are computed, lambda is not asked."""
 
-THICKEST = 0.1
+LARGEST_FILM_PART = 0.1
 """Largest film over the reduced radius: the gap is ten times as wide at ``sqrt(18 h R)``, which is
 then 1.3 R, beyond the body."""
 
@@ -193,14 +193,14 @@ def check_film(scaled: ScaledProblem) -> None:
     Raises
     ------
     InputError
-        If the film to expect is thicker than `THICKEST` reduced radii.
+        If the film to expect is thicker than `LARGEST_FILM_PART` reduced radii.
     """
     part = film_over_radius(scaled)
-    if scaled.problem.supply is None and part > THICKEST:
+    if scaled.problem.supply is None and part > LARGEST_FILM_PART:
         raise InputError(
             f"contact: the film to expect, {1e3 * likely_film(scaled).central_m:.3g} mm, is "
             f"{part:.2g} times the smaller reduced radius, and lubrication theory needs less than "
-            f"{THICKEST:g}: check the units of viscosity, speed, load and radius"
+            f"{LARGEST_FILM_PART:g}: check the units of viscosity, speed, load and radius"
         )
 
 

@@ -13,7 +13,12 @@ from tehl.contact.roller import SLICES
 from tehl.contact.summits import GreenwoodTripp
 from tehl.contact.tables import Surface
 from tehl.estimate.domain import domain_error, domain_of, proposed_domain
-from tehl.estimate.film_formulas import THICKEST, film_over_radius, inlet_stress, likely_film
+from tehl.estimate.film_formulas import (
+    LARGEST_FILM_PART,
+    film_over_radius,
+    inlet_stress,
+    likely_film,
+)
 from tehl.estimate.nodes import expected_bar, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
@@ -34,7 +39,7 @@ NEAR_EDGE_RATIO, LEAST_DOMAIN_ERROR = 0.95, 0.005
 film by zero pressure on the edges from which on it is."""
 LEAST_CONFORMITY, LARGEST_CONFORMITY = 1.005, 1.25
 """Radius of the groove of a bearing over that of its ball: conformities of 0.5025 to 0.625."""
-THICK = 0.01
+THICK_FILM = 0.01
 """Film over the reduced radius from which on the gap of a film is steep: its slope is 0.14 where it
 is twice as wide as at the centre."""
 MOLECULAR = 5e-9
@@ -256,11 +261,11 @@ def _about_film(scaled: ScaledProblem) -> Iterator[str]:
     if scaled.problem.asperities is not None:
         rough = 0.0  # they are computed
     thick = film_over_radius(scaled)
-    if thick > THICK and scaled.problem.supply is None:
+    if thick > THICK_FILM and scaled.problem.supply is None:
         yield (
             f"the expected film of {1e3 * film:.3g} mm is {thick:.2g} times the smaller reduced "
-            f"radius: Reynolds' equation needs a thin one, and a run accepts {THICKEST:g} at most; "
-            "check the units of viscosity, speed, load and radius"
+            "radius: Reynolds' equation needs a thin one, and a run accepts "
+            f"{LARGEST_FILM_PART:g} at most; check the units of viscosity, speed, load and radius"
         )
     if film < MOLECULAR:
         yield (
