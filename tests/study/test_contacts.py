@@ -163,6 +163,7 @@ def test_wrong_rows_are_named_and_the_others_are_solved_equal_ones_once(tmp_path
     assert found["rows"] == 5
     assert found["equal"] == 1
     assert found["converged"] == 2
+    assert "what the rows do not state" not in done.stderr
     assert [text.split(":")[0] for text in found["wrong"]] == ["row 3", "row 6"]
     assert 'column "load [N]": contact.load' in found["wrong"][0]
     table = pd.read_csv(out)

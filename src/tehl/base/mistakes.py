@@ -188,7 +188,7 @@ def _right_word(models: Sequence[Model], word: str) -> str:
 def _in_another_table(mistake: _Mistake, word: str) -> str:
     """Return the question after the only plausible table that has a key; empty without one.
 
-    That is one within the table of the mistake, or one of the tables that `part_of_case` names.
+    That is one within the table of the mistake, or one or two of those that `part_of_case` names.
     """
     root = mistake.models[0][0]
     if not any(_is_part(root, table) for table in _CASE) or len(word) < 2:
@@ -201,7 +201,8 @@ def _in_another_table(mistake: _Mistake, word: str) -> str:
         if path.split(".")[-1] == word
         and (path.startswith(own) or (path.startswith(tables) and path.count(".") == 1))
     ]
-    return f"did you mean {paths[0]}?" if len(paths) == 1 else ""
+    is_plausible = len(paths) == 1 or (len(paths) == 2 and all(p.count(".") == 1 for p in paths))
+    return f"did you mean {' or '.join(paths)}?" if is_plausible else ""
 
 
 def _paths_of_case() -> dict[str, None]:

@@ -12,7 +12,7 @@ from tehl.cli.lines import show
 from tehl.cli.progress import MOST_NAMED_CASES, duration, study_progress
 from tehl.cli.study_job import number_of_workers
 from tehl.studies.answers import check_output, write_answers
-from tehl.studies.contacts import Contacts, read_contacts
+from tehl.studies.contacts import TEMPLATE, Contacts, read_contacts
 from tehl.studies.plan import locked
 from tehl.studies.runner import Outcome, expected_times
 from tehl.studies.runner import run as solve
@@ -36,6 +36,12 @@ def run(  # noqa: PLR0913 (the arguments of the command)
     found = read_contacts(source, template)
     if not found.cases:
         raise InputError(f"{source}: no row can be solved; {found.wrong[0].message}")
+    if template is None and not quiet:
+        show(
+            f"what the rows do not state is that of tehl new {TEMPLATE}; --template takes another "
+            "case",
+            err=True,
+        )
     for row in found.wrong[:MOST_NAMED_CASES]:
         show(f"tehl: {row.message}", err=True)
     if len(found.wrong) > MOST_NAMED_CASES:

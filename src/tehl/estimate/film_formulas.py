@@ -198,8 +198,8 @@ def check_film(scaled: ScaledProblem) -> None:
     part = film_over_radius(scaled)
     if scaled.problem.supply is None and part > LARGEST_FILM_PART:
         raise InputError(
-            f"contact: the film to expect, {1e3 * likely_film(scaled).central_m:.3g} mm, is "
-            f"{part:.2g} times the smaller reduced radius, and lubrication theory needs less than "
+            f"contact: the film to expect, {1e3 * likely_film(scaled).central_m:.4g} mm, is "
+            f"{part:.4g} times the smaller reduced radius, and lubrication theory needs less than "
             f"{LARGEST_FILM_PART:g}: check the units of viscosity, speed, load and radius"
         )
 

@@ -57,6 +57,8 @@ def case_from_tables(
     tables: Mapping[str, Any], folder: Path | None = None
 ) -> tuple[ContactProblem, Options]:
     """Return problem and options of the tables of a case: see `tehl.api.problem`."""
+    if "axes" in tables:
+        raise InputError("is a study, not a case: solve it with tehl study")
     physics = {key: value for key, value in tables.items() if key != NUMERICS}
     problem = _validated(ContactProblem, physics, prefix="", folder=folder)
     _check_maps(problem)

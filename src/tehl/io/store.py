@@ -184,6 +184,8 @@ def _read(source: Path) -> tuple[Arrays, Attributes]:
 
 
 def _check_signature(source: Path) -> None:
+    if source.is_dir():
+        raise InputError(f"{shortened(source)} is a folder; expected a result file such as film.nc")
     if not source.is_file():
         raise InputError(f"result file {shortened(source)} does not exist")
     try:

@@ -263,7 +263,7 @@ def _about_film(scaled: ScaledProblem) -> Iterator[str]:
     thick = film_over_radius(scaled)
     if thick > THICK_FILM and scaled.problem.supply is None:
         yield (
-            f"the expected film of {1e3 * film:.3g} mm is {thick:.2g} times the smaller reduced "
+            f"the expected film of {1e3 * film:.4g} mm is {thick:.3g} times the smaller reduced "
             "radius: Reynolds' equation needs a thin one, and a run accepts "
             f"{LARGEST_FILM_PART:g} at most; check the units of viscosity, speed, load and radius"
         )

@@ -139,6 +139,8 @@ def lines_of(path: Path, what: str) -> list[tuple[int, list[Any]]]:
         What a message calls it.
     """
     ending = path.suffix.lower()
+    if ending in (".toml", ".nc"):
+        raise InputError(f"{shortened(path)} is not a {what}: expected .csv, .xlsx or .parquet")
     if ending == ".xlsx":
         return lines_of_sheet(path, what)
     if ending == ".parquet":
