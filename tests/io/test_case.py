@@ -7,7 +7,7 @@ import pytest
 from tehl.api.problem import case_from_tables, read_case, read_case_and_options
 from tehl.base.errors import InputError
 from tehl.contact.options import Domain, coarsenable, coarsenings
-from tehl.io.case import change
+from tehl.io.case import overridden
 from tehl.io.templates import template_text
 from tests.cases import ball_tables
 
@@ -354,7 +354,7 @@ def test_bodies_that_are_both_flat_along_y_make_a_line_contact(tmp_path):
 
 def test_a_table_is_left_out_by_false():
     tables = {"thermal": {"layers": 9}, "contact": {"load": 1.0}}
-    change(tables, "thermal=false")
+    tables = overridden(tables, "thermal=false")
     assert tables == {"contact": {"load": 1.0}}
 
 

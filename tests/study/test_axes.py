@@ -143,6 +143,12 @@ def test_a_change_is_found_where_it_was_made(path, value):
     assert node == value
 
 
+def test_a_switch_may_be_false_and_another_key_is_left_out_by_it():
+    cases = cases_of(problem(), {"numerics.extrapolate": [True, False]}, QUICK)
+    assert [case.options.extrapolate for case in cases.cases] == [True, False]
+    assert changed({"contact": {}}, "thermal.layers", value=False) == {"contact": {}}
+
+
 @pytest.mark.parametrize(
     ("axes", "words"),
     [

@@ -115,7 +115,7 @@ def _map(file: Path, keys: dict[str, Any], overrides: list[str]) -> "Map":
 
     stated = {"file": str(file), **keys}
     for override in overrides:
-        case_files.change(stated, override)
+        stated = case_files.overridden(stated, override)
     try:
         return roughness.Map.model_validate(stated)
     except ValidationError as error:

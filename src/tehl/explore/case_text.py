@@ -9,7 +9,7 @@ import tomlkit
 
 from tehl.base.errors import InputError
 from tehl.contact.materials import SOLIDS
-from tehl.io.case import replaced_by, tables_of_text, text_of
+from tehl.io.case import REPLACED, tables_of_text, text_of
 from tehl.io.templates import template_text
 from tehl.lubricant.fluid import OILS
 
@@ -125,7 +125,7 @@ def _change(document: Any, path: str, value: Any) -> None:
                 return
             node[key] = _table(above[: depth + 1], node.get(key))
         node = node[key]
-    node.pop(replaced_by(path), None)
+    node.pop(REPLACED.get(last, ""), None)
     if value is None:
         node.pop(last, None)
     else:

@@ -13,6 +13,7 @@ from pydantic import BaseModel, ValidationError, create_model
 from tehl.base.atomic import shortened
 from tehl.base.encoding import encoding_of
 from tehl.base.errors import InputError
+from tehl.base.keys import field_at, models_at
 from tehl.base.lists import plain_value
 from tehl.base.mistakes import describe
 from tehl.base.units import Quantity, percentage
@@ -33,6 +34,8 @@ _LARGEST_CASE = 10**6
 """Bytes of a case file."""
 _MOST_KEYS = 8
 """Parts of the key path of an override."""
+REPLACED = {"points": "error", "error": "points"}
+"""Keys that a change of another one removes: nodes and error exclude each other."""
 _LIBRARIES = {"lubricant": OILS.key, "material": SOLIDS.key}
 """Keys whose value may be a name, and the key that starts from this name in a table."""
 Model = TypeVar("Model", bound=BaseModel)
@@ -45,7 +48,7 @@ def read_case_and_options(
     try:
         tables = toml_tables(Path(path))
         for override in overrides:
-            change(tables, override)
+            tables = overridden(tables, override)
         return case_from_tables(tables, Path(path).parent)
     except InputError as error:
         raise InputError(f"{shortened(path)}: {error}") from error
@@ -171,28 +174,50 @@ def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
     path : str
         Dotted path; a name on the way, such as that of an oil, becomes a table that starts from it.
     value
-        The value; ``False`` removes the key.
+        The value; ``False`` removes the key, unless it is a switch.
+
+    Raises
+    ------
+    InputError
+        If the path goes through a key that is not a table.
     """
-    key, _, deeper = (part.strip() for part in path.partition("."))
-    after = dict(tables)
+    removes = value is False and not _is_switch(path)
+    return _changed(tables, [part.strip() for part in path.split(".")], value, removes=removes)
+
+
+def _changed(
+    tables: Mapping[str, Any], keys: Sequence[str], value: Any, *, removes: bool
+) -> dict[str, Any]:
+    (key, *deeper), after = keys, dict(tables)
+    if removes and key not in after:
+        return after
     if deeper:
         below = after.get(key, {})
-        if isinstance(below, str):
+        if isinstance(below, str) and key in _LIBRARIES:
             below = from_name(key, below)
         if not isinstance(below, Mapping):
-            raise ValueError(f"{path} goes through {key}, which is not a table in the base case")
-        after[key] = changed(below, deeper, value)
-        after[key].pop(replaced_by(path), None)
-    elif value is False:
-        after.pop(key, None)
+            raise InputError(f"{'.'.join(keys)} goes through {short(key)}, which is not a table")
+        after[key] = _changed(below, deeper, value, removes=removes)
+    elif removes:
+        after.pop(key)
     else:
         after[key] = value
+        after.pop(REPLACED.get(key, ""), None)
     return after
+
+
+def _is_switch(path: str) -> bool:
+    """Return whether the value of a key may be false."""
+    root, _, inside = path.partition(".")
+    model, keys = (Options, inside) if root == NUMERICS else (ContactProblem, path)
+    *above, last = keys.split(".")
+    field = field_at(models_at(model, tuple(above))[-1], last)
+    return field is not None and bool in (field.annotation, *get_args(field.annotation))
 
 
 def from_name(key: str, name: str) -> dict[str, Any]:
     """Return the table that starts from the oil or the solid called ``name``."""
-    return {_LIBRARIES.get(key, "name"): name}
+    return {_LIBRARIES[key]: name}
 
 
 def found_at(problem: ContactProblem, options: Options, path: str) -> tuple[Any, Quantity | None]:
@@ -244,20 +269,15 @@ def with_settings(options: Options, settings: "Settings") -> Options:
     return _validated(Options, tables[NUMERICS], prefix=NUMERICS)
 
 
-def replaced_by(path: str) -> str:
-    """Return the key that a change of ``path`` removes: nodes and error exclude each other."""
-    return {"numerics.points": "error", "numerics.error": "points"}.get(path, "")
-
-
-def change(tables: dict[str, Any], override: str) -> None:
-    """Apply one override to the tables of a case, in place.
+def overridden(tables: Mapping[str, Any], override: str) -> dict[str, Any]:
+    """Return a copy of the tables of a case with one override.
 
     Parameters
     ----------
-    tables : dict
+    tables : mapping
         Parsed case; missing tables on the path are added.
     override : str
-        ``key.path=value``; the value ``false`` removes a table.
+        ``key.path=value``; the value ``false`` removes a key that is not a switch.
 
     Raises
     ------
@@ -266,24 +286,16 @@ def change(tables: dict[str, Any], override: str) -> None:
     """
     key, equals, text = (part.strip() for part in override.partition("="))
     names = key.split(".")
+    expected = ""
     if not equals or not all(names):
         expected = "expected key.path=value, such as numerics.points=513"
+    elif any("\ud800" <= letter <= "\udfff" for letter in override):
+        expected = "not UTF-8 text"
+    elif len(names) > _MOST_KEYS:
+        expected = f"{len(names)} parts; expected at most {_MOST_KEYS}"
+    if expected:
         raise InputError(f"invalid override {shown(override)}: {expected}")
-    if any("\ud800" <= letter <= "\udfff" for letter in override):
-        raise InputError(f"invalid override {shown(override)}: not UTF-8 text")
-    if len(names) > _MOST_KEYS:
-        raise InputError(
-            f"invalid override {shown(override)}: {len(names)} parts; expected at most {_MOST_KEYS}"
-        )
-    node = tables
-    for name in names[:-1]:
-        above, node = node, node.setdefault(name, {})
-        if isinstance(node, str) and name in _LIBRARIES:
-            node = above[name] = from_name(name, node)
-        if not isinstance(node, dict):
-            raise InputError(f"invalid override {shown(override)}: {short(name)} is not a table")
-    value, whole = plain_value(text), isinstance(node.get(names[-1]), dict)
-    node[names[-1]] = value
-    if value is False and whole:  # a table that is switched off
-        del node[names[-1]]
-    node.pop(replaced_by(key), None)
+    try:
+        return changed(tables, key, plain_value(text))
+    except InputError as error:
+        raise InputError(f"invalid override {shown(override)}: {error}") from None

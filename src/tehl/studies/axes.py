@@ -47,7 +47,7 @@ class Axis(Table):
     name: str | None = None
     """Of its column in the table; the path if left out."""
     values: list[Any] | None = None
-    """Numbers, words, quantities or tables; ``false`` leaves the key out of the case."""
+    """Numbers, words, quantities or tables; ``false`` leaves a key out that is not a switch."""
     file: str | None = None
     """CSV file with the values in a column; beside the study file."""
     column: str | None = None

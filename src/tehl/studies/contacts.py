@@ -5,7 +5,6 @@ A heading states a key of the case file, or a word for it, and a unit: ``load [N
 What a row does not state is that of the template.
 """
 
-import copy
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +14,7 @@ from tehl.api.problem import case_from_tables
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
 from tehl.base.lists import check_package, lines_of_sheet, numbered_lines, stripped
-from tehl.io.case import from_name, plain_value, tables_of_text, toml_tables
+from tehl.io.case import changed, plain_value, tables_of_text, toml_tables
 from tehl.io.templates import template_text
 from tehl.studies.case import Case
 from tehl.studies.headings import (
@@ -304,14 +303,15 @@ def tables_of(base: dict[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]
     stated : Mapping
         What a row states instead, by key path.
     """
-    tables = copy.deepcopy(base)
+    tables = base
     for key in _replaced(stated):
-        _remove(tables, key)
+        tables = changed(tables, key, value=False)
     if "lubricant.oil" in stated:
-        temperature = _found(tables, "lubricant.temperature")
-        tables["lubricant"] = {} if temperature is None else {"temperature": temperature}
+        before = tables.get("lubricant")
+        kept = before.items() if isinstance(before, dict) else ()
+        tables = tables | {"lubricant": {k: v for k, v in kept if k == "temperature"}}
     for key, value in stated.items():
-        _set(tables, key, value)
+        tables = changed(tables, key, value)
     return tables
 
 
@@ -324,27 +324,3 @@ def _replaced(stated: Mapping[str, Any]) -> Iterator[str]:
         others = ("surface_1", "surface_2") if table == "contact" else (table,)
         for name in ("contact", *others):
             yield from (f"{name}.{key}" for key in _RADII)
-
-
-def _found(tables: Any, key: str) -> Any:
-    for part in key.split("."):
-        tables = tables.get(part) if isinstance(tables, dict) else None
-    return tables
-
-
-def _remove(tables: dict[str, Any], key: str) -> None:
-    parent, _, last = key.rpartition(".")
-    node = _found(tables, parent)
-    if isinstance(node, dict):
-        node.pop(last, None)
-
-
-def _set(tables: dict[str, Any], key: str, value: Any) -> None:
-    *parents, last = key.split(".")
-    for part in parents:
-        node = tables.get(part)
-        if isinstance(node, str):  # the name of an oil or of a law
-            node = from_name(part, node)
-        tables[part] = node = {} if node is None else node
-        tables = node
-    tables[last] = value

@@ -1,6 +1,5 @@
 """Studies from TOML files or from Python; every mistake is one sentence before any work."""
 
-import copy
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -17,7 +16,7 @@ from tehl.base.mistakes import describe
 from tehl.base.table import Table
 from tehl.base.wording import short
 from tehl.contact.options import Options
-from tehl.io.case import change, toml_tables
+from tehl.io.case import overridden, toml_tables
 from tehl.studies.axes import (
     Axis,
     Sample,
@@ -154,7 +153,7 @@ def _check_keys(stated: StudyFile, count: int, *, unlimited: bool) -> None:
 
 def _base(stated: StudyFile, folder: Path, overrides: Sequence[str]) -> tuple[dict[str, Any], Path]:
     """Return the tables of the base case with the overrides, and the folder of its files."""
-    base, place = copy.deepcopy(stated.case), folder
+    base, place = stated.case, folder
     if isinstance(base, str):
         path = folder / base
         try:
@@ -162,7 +161,7 @@ def _base(stated: StudyFile, folder: Path, overrides: Sequence[str]) -> tuple[di
         except InputError as error:
             raise InputError(f"case {shortened(path)}: {error}") from None
     for override in overrides:
-        change(base, override)
+        base = overridden(base, override)
     return base, place
 
 

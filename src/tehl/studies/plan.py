@@ -113,10 +113,10 @@ def _settings(plan: Plan, rows: tuple[int, ...]) -> Iterator[tuple[str, str, Set
 
 def _label(stated: Any, found: Any) -> Label:
     """Return a value as the table shows it: numbers in SI, as the case has ``found`` them."""
-    if stated is False:
-        return "none"
     if isinstance(found, bool):
         return str(found).lower()
+    if stated is False:
+        return "none"
     if isinstance(found, int | float):
         return float(found)
     if isinstance(stated, str):
