@@ -3,16 +3,19 @@
 import csv
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import closing
 from importlib.util import find_spec
 from io import StringIO
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tehl.base.atomic import shortened
 from tehl.base.encoding import decoded
 from tehl.base.errors import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 _DECIMAL_COMMA = re.compile(r"^([+-]?\d+),(\d+)(?=[eE\s]|$)")
 _UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
@@ -49,25 +52,21 @@ def values_of_file(path: Path, column: str) -> list[Any]:
 
 
 def lines_of_file(path: Path, what: str = "list of cases") -> list[list[str]]:
-    """Return the cells of the lines of a file that are not empty, all of the same number.
+    """Return the cells of :func:`lines_of` as texts, without the numbers of the lines."""
+    lines = lines_of(path, what)
+    return [["" if cell is None else str(cell) for cell in line] for _, line in lines]
+
+
+def lines_of(path: Path, what: str = "list of cases") -> list[tuple[int, list[Any]]]:
+    """Return the numbers and the cells of the lines of a file that are not empty, headings first.
+
+    All lines have as many cells as the first one; an empty cell is None.
 
     Parameters
     ----------
     path : Path
-        ``.xlsx`` is read as Excel, its first sheet; all others as CSV.
-    what : str
-        How messages call the file.
-    """
-    return [line for _, line in numbered_lines(path, what)]
-
-
-def numbered_lines(path: Path, what: str = "list of cases") -> list[tuple[int, list[str]]]:
-    """Return the lines of :func:`lines_of_file` with their numbers in the file.
-
-    Parameters
-    ----------
-    path : Path
-        Excel or CSV, whose delimiter is found from the first line.
+        ``.xlsx`` is read as Excel, its first sheet, with the values of formulas that it stored;
+        ``.parquet`` as Parquet; all others as CSV, whose delimiter is found from the first line.
     what : str
         How messages call the file.
 
@@ -76,64 +75,84 @@ def numbered_lines(path: Path, what: str = "list of cases") -> list[tuple[int, l
     InputError
         If the file is missing, too large or cannot be read, or its lines differ in length.
     """
-    if path.suffix.lower() == ".xlsx":
-        return [
-            (number, ["" if cell is None else str(cell) for cell in line])
-            for number, line in lines_of_sheet(path, what)
-        ]
-    shown = shortened(path)
+    ending, shown = path.suffix.lower(), shortened(path)
+    if ending in (".toml", ".nc"):
+        raise InputError(f"{shown} is not a {what}: expected .csv, .xlsx or .parquet")
+    if ending in _PACKAGES:
+        check_package(*_PACKAGES[ending], path)
+    kind, read = _READERS.get(ending, (f"a {what}", _csv))
     try:
         if path.stat().st_size > _LARGEST_LIST:
             raise InputError(f"{shown} is larger than {_LARGEST_LIST // 10**6} MB, so not a {what}")
-        file = StringIO(decoded(path.read_bytes()), newline="")
-        reader = csv.reader(file, delimiter=_delimiter(file.readline()))
-        file.seek(0)
-        lines = [(reader.line_num, [cell.strip() for cell in line]) for line in reader]
-        if reader.dialect.delimiter != ",":
-            lines = [(number, [_pointed(cell) for cell in line]) for number, line in lines]
+        found = ((number, [stripped(cell) for cell in line]) for number, line in read(path))
+        lines = [(number, line) for number, line in found if any(cell is not None for cell in line)]
     except FileNotFoundError:
         raise InputError(f"{what} {shown} does not exist") from None
-    except (OSError, UnicodeError, csv.Error) as error:
-        raise InputError(f"{shown} cannot be read as a {what}: {error}") from None
-    lines = [(number, line) for number, line in lines if any(line)]
-    for number, line in lines:
-        if len(line) != len(lines[0][1]):
-            raise InputError(
-                f"{shown}: line {number} has {len(line)} cells, but the first has "
-                f"{len(lines[0][1])}"
-            )
+    except InputError:
+        raise
+    except Exception as error:  # openpyxl and pyarrow have no common base of their errors
+        raise InputError(f"{shown} cannot be read as {kind}: {error}") from None
+    widths = [len(line) for _, line in lines]
+    uneven = next((n for n, width in enumerate(widths) if width != widths[0]), None)
+    if uneven is not None:
+        raise InputError(
+            f"{shown}: line {lines[uneven][0]} has {widths[uneven]} cells, but the first has "
+            f"{widths[0]}"
+        )
     return lines
 
 
-def lines_of_sheet(path: Path, what: str = "list of cases") -> list[tuple[int, list[Any]]]:
-    """Return the numbers and the cells of the rows of the first Excel sheet that are not empty.
+def _csv(path: Path) -> Iterator[tuple[int, list[str]]]:
+    file = StringIO(decoded(path.read_bytes()), newline="")
+    reader = csv.reader(file, delimiter=_delimiter(file.readline()))
+    file.seek(0)
+    for line in reader:
+        cells = [cell.strip() for cell in line]
+        is_decimal = reader.dialect.delimiter == ","
+        yield reader.line_num, cells if is_decimal else [_pointed(cell) for cell in cells]
 
-    All rows have as many cells as the first one has headings; an empty cell is None.
 
-    Parameters
-    ----------
-    path : Path
-        An ``.xlsx`` file; formulas have the values that Excel stored.
-    what : str
-        How messages call the file.
-    """
-    check_package("openpyxl", "xlsx", path)
+def _sheet(path: Path) -> Iterator[tuple[int, list[Any]]]:
+    """Yield the rows of the first Excel sheet; as wide as there are headings."""
     from openpyxl import load_workbook  # noqa: PLC0415 (an extra)
 
-    if not path.exists():
-        raise InputError(f"{what} {shortened(path)} does not exist")
-    try:
-        book = load_workbook(path, read_only=True, data_only=True)
-    except Exception as error:  # openpyxl has no common base of its errors
-        raise InputError(f"{shortened(path)} cannot be read as Excel: {error}") from None
-    with closing(book):
-        found = [
-            (number, [stripped(cell) for cell in line])
-            for number, line in enumerate(book.worksheets[0].iter_rows(values_only=True), 1)
-        ]
-    found = [(number, line) for number, line in found if any(cell is not None for cell in line)]
-    width = max((k + 1 for _, line in found[:1] for k, one in enumerate(line) if one), default=0)
-    return [(number, (line + [None] * width)[:width]) for number, line in found]
+    with closing(load_workbook(path, read_only=True, data_only=True)) as book:
+        width = 0
+        for number, line in enumerate(book.worksheets[0].iter_rows(values_only=True), 1):
+            if not width:
+                width = max((k + 1 for k, cell in enumerate(line) if stripped(cell)), default=0)
+            yield number, [*line, *[None] * width][:width]
+
+
+def _parquet(path: Path) -> list[tuple[int, list[Any]]]:
+    import pandas as pd  # noqa: PLC0415 (0.5 s)
+
+    return lines_of_frame(pd.read_parquet(path))
+
+
+def lines_of_frame(frame: "pd.DataFrame") -> list[tuple[int, list[Any]]]:
+    """Return headings and rows of a frame as :func:`lines_of`; the first row has number 1."""
+    head = [(0, [str(name) for name in frame.columns])]
+    empty = frame.isna().to_numpy()
+    values = frame.astype(object).to_numpy()
+    return head + [
+        (
+            number,
+            [None if none else stripped(_plain(cell)) for cell, none in zip(*row, strict=True)],
+        )
+        for number, row in enumerate(zip(values, empty, strict=True), 1)
+    ]
+
+
+def _plain(cell: Any) -> Any:
+    return cell.item() if hasattr(cell, "item") else cell
+
+
+_READERS: dict[str, tuple[str, Callable[[Path], Iterable[tuple[int, list[Any]]]]]] = {
+    ".xlsx": ("Excel", _sheet),
+    ".parquet": ("Parquet", _parquet),
+}
+"""What messages call a format, and how it is read, by the ending of the file."""
 
 
 def stripped(cell: Any) -> Any:
@@ -188,17 +207,19 @@ def heading(cell: str) -> tuple[str, str]:
     return (match[1], match[2].strip()) if match else (cell, "")
 
 
-def value_of(cell: str, unit: str) -> object:
-    """Return the value of a cell of a column with a unit.
+def value_of(cell: Any, unit: str) -> Any:
+    """Return the value of a cell of a column with a unit; text with a unit of its own keeps it.
 
     Parameters
     ----------
-    cell : str
-        Stripped text of the cell.
+    cell : str or number
+        Stripped text of the cell, or what a sheet has.
     unit : str
         Of the heading; empty, "-" and "1" leave a plain number, text or truth value.
     """
-    return f"{cell} {unit}" if unit not in ("", "-", "1") else plain_value(cell)
+    found = plain_value(cell) if isinstance(cell, str) else cell
+    is_number = isinstance(found, int | float) and not isinstance(found, bool)
+    return f"{cell} {unit}" if is_number and unit not in ("", "-", "1") else found
 
 
 def plain_value(text: str) -> object:

@@ -3,6 +3,9 @@
 import re
 from pathlib import Path
 
+from tehl.base.errors import InputError
+from tehl.base.lists import lines_of_file
+
 
 def read_columns(
     path: Path, names: tuple[str, str], header: str
@@ -23,23 +26,19 @@ def read_columns(
     ValueError
         If it is not a file of two columns of numbers.
     """
+    wrong = f"is not a CSV file of two columns of numbers, {names[0]} and {names[1]}"
     try:
-        text = path.read_text(encoding="utf-8-sig")[:1_000_000]  # characters that are read
-    except (OSError, UnicodeDecodeError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "not a text file"
-        raise ValueError(f"cannot be read ({reason})") from None
-    rows = [
-        re.split(r"[;,\t]|\s+(?!\[)", line.strip()) for line in text.splitlines() if line.strip()
-    ]
+        lines = lines_of_file(path, "file of two columns")
+    except InputError as error:
+        raise ValueError(f"cannot be read ({error})") from None
     units = None
-    if rows and "[" in "".join(rows[0]):
-        found = re.findall(r"\[([^\]]*)\]", ",".join(rows.pop(0)))
+    if lines and "[" in "".join(lines[0]):
+        found = re.findall(r"\[([^\]]*)\]", ",".join(lines.pop(0)))
         if len(found) != len(names):
             raise ValueError(f"has a header without both units, such as: {header}")
         units = (found[0].strip(), found[1].strip())
-    wrong = f"is not a CSV file of two columns of numbers, {names[0]} and {names[1]}"
     try:
-        pairs = [tuple(float(cell) for cell in row if cell) for row in rows]
+        pairs = [tuple(map(float, " ".join(line).split())) for line in lines]
     except ValueError:
         raise ValueError(wrong) from None
     if not pairs or any(len(pair) != len(names) for pair in pairs):

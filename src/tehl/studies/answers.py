@@ -16,6 +16,7 @@ from tehl.result.registry import shown_in
 from tehl.studies.case import Row
 from tehl.studies.contacts import Contacts, Listed, contacts_of, stated_in, template_tables
 from tehl.studies.headings import Column, column_of
+from tehl.studies.plan import for_parquet
 from tehl.studies.runner import QUIET, StudyMonitor, run
 from tehl.studies.store import Store, opened
 
@@ -148,12 +149,7 @@ def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
             if path.suffix.lower() == ".csv":
                 frame.to_csv(temporary, index=False)
             else:
-                for name in frame.columns:
-                    if frame[name].dtype == object:
-                        frame[name] = frame[name].map(
-                            lambda cell: None if cell is None else str(cell)
-                        )
-                frame.to_parquet(temporary, index=False)
+                for_parquet(frame).to_parquet(temporary, index=False)
 
 
 def _frame_of(headings: Sequence[str], lines: Iterable[Mapping[str, Any]]) -> "pd.DataFrame":

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 from tehl.api.problem import case_from_tables
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
-from tehl.base.lists import check_package, lines_of_sheet, numbered_lines, stripped
-from tehl.io.case import changed, plain_value, tables_of_text, toml_tables
+from tehl.base.lists import lines_of, lines_of_frame, value_of
+from tehl.io.case import changed, tables_of_text, toml_tables
 from tehl.io.templates import template_text
 from tehl.studies.case import Case
 from tehl.studies.headings import (
@@ -127,59 +127,6 @@ def template_tables(template: Path | None) -> tuple[dict[str, Any], Path | None]
         raise InputError(f"template {shortened(template)}: {error}") from None
 
 
-def lines_of(path: Path, what: str) -> list[tuple[int, list[Any]]]:
-    """Return the numbers and the cells of the rows of a file, headings first; None is empty.
-
-    Parameters
-    ----------
-    path : Path
-        CSV as spreadsheets save it, Excel or Parquet.
-    what : str
-        What a message calls it.
-    """
-    ending = path.suffix.lower()
-    if ending in (".toml", ".nc"):
-        raise InputError(f"{shortened(path)} is not a {what}: expected .csv, .xlsx or .parquet")
-    if ending == ".xlsx":
-        return lines_of_sheet(path, what)
-    if ending == ".parquet":
-        frame = _frame_of_parquet(path, what)
-        return lines_of_frame(frame)
-    return [
-        (number, [cell or None for cell in line]) for number, line in numbered_lines(path, what)
-    ]
-
-
-def _frame_of_parquet(path: Path, what: str) -> "pd.DataFrame":
-    check_package("pyarrow", "parquet", path)
-    import pandas as pd  # noqa: PLC0415 (0.5 s)
-
-    try:
-        return pd.read_parquet(path)
-    except FileNotFoundError:
-        raise InputError(f"{what} {shortened(path)} does not exist") from None
-    except (OSError, ValueError) as error:
-        raise InputError(f"{shortened(path)} cannot be read as Parquet: {error}") from None
-
-
-def lines_of_frame(frame: "pd.DataFrame") -> list[tuple[int, list[Any]]]:
-    """Return headings and rows of a frame; the first row has number 1."""
-    head = [(0, [str(name) for name in frame.columns])]
-    empty = frame.isna().to_numpy()
-    values = frame.astype(object).to_numpy()
-    return head + [
-        (
-            number,
-            [None if none else stripped(_plain(cell)) for cell, none in zip(*row, strict=True)],
-        )
-        for number, row in enumerate(zip(values, empty, strict=True), 1)
-    ]
-
-
-def _plain(cell: Any) -> Any:
-    return cell.item() if hasattr(cell, "item") else cell
-
-
 def _contacts(
     lines: list[tuple[int, list[Any]]], base: dict[str, Any], folder: Path | None
 ) -> Contacts:
@@ -249,7 +196,7 @@ def stated_in(columns: Sequence[Column], cells: Sequence[Any]) -> dict[str, Any]
         Of the row, in the same order; None is empty.
     """
     return {
-        one.key: str(cell) if one.key == TITLE else _value(cell, one.unit)
+        one.key: str(cell) if one.key == TITLE else value_of(cell, one.unit)
         for one, cell in zip(columns, cells, strict=True)
         if one.key is not None and cell is not None
     }
@@ -279,18 +226,6 @@ def _listed(
         options = options.model_copy(update={"max_time": ROW_SECONDS})
     case = Case(name=f"row {number}", problem=problem, options=options, labels=labels)
     return Listed(number, tuple(cells), case)
-
-
-def _value(cell: Any, unit: str) -> Any:
-    """Return a cell with the unit of its column; text that has a unit of its own keeps it."""
-    if isinstance(cell, str):
-        found = plain_value(cell)
-        if isinstance(found, str):
-            return found
-        cell = found
-    if isinstance(cell, bool) or not isinstance(cell, int | float) or not unit:
-        return cell
-    return f"{cell!r} {unit}"
 
 
 def tables_of(base: dict[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:

@@ -323,11 +323,11 @@ def write_table(frame: "pd.DataFrame", folder: Path) -> list[Path]:
     if find_spec("pyarrow") is not None:
         written.append(folder / _PARQUET)
         with replacing(written[2]) as temporary:
-            _for_parquet(frame).to_parquet(temporary, index=False, engine="pyarrow")
+            for_parquet(frame).to_parquet(temporary, index=False, engine="pyarrow")
     return written
 
 
-def _for_parquet(frame: "pd.DataFrame") -> "pd.DataFrame":
+def for_parquet(frame: "pd.DataFrame") -> "pd.DataFrame":
     """Return the table with columns of one kind: those of mixed labels become text."""
     mixed = {
         name: frame[name].map(lambda v: f"{v:.12g}" if isinstance(v, float) else str(v), "ignore")

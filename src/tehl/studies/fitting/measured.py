@@ -9,14 +9,13 @@ from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import Result
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
+from tehl.base.lists import lines_of, lines_of_frame
 from tehl.base.units import Length, PositiveNumber, Quantity, Share, quantity
 from tehl.estimate.film_formulas import likely_film
 from tehl.estimate.scaling import ScaledProblem
 from tehl.lubricant.fluid import oil_table
 from tehl.studies.contacts import (
     columns_and_rows,
-    lines_of,
-    lines_of_frame,
     stated_in,
     tables_of,
     template_tables,
