@@ -11,6 +11,13 @@ def grid_size(points: tuple[int, int]) -> str:
     return f"{nx} nodes" if ny == 1 else f"{nx} x {ny} nodes"
 
 
+def duration(seconds: float) -> str:
+    """Return a time with its unit: 40 s, 12 min, 3.5 h."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
 def suggestion_for(word: str, known: list[str]) -> str:
     """Return the question after the word that is most alike, or all known ones.
 

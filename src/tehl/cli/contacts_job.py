@@ -1,6 +1,5 @@
 """One job of ``tehl contacts``: read, solve, write, say what happened."""
 
-import json
 from contextlib import closing
 from pathlib import Path
 
@@ -9,12 +8,13 @@ import typer
 from tehl.base.atomic import check_writable
 from tehl.base.errors import InputError
 from tehl.cli.lines import show
-from tehl.cli.progress import MOST_NAMED_CASES, duration, study_progress
-from tehl.cli.study_job import number_of_workers
+from tehl.cli.progress import MOST_NAMED_CASES, study_progress
+from tehl.cli.study_job import as_json as as_json_of
+from tehl.cli.study_job import number_of_workers, show_outcome
 from tehl.studies.answers import check_output, write_answers
-from tehl.studies.contacts import TEMPLATE, Contacts, read_contacts
+from tehl.studies.contacts import TEMPLATE, read_contacts
 from tehl.studies.plan import locked
-from tehl.studies.runner import Outcome, expected_times
+from tehl.studies.runner import expected_times
 from tehl.studies.runner import run as solve
 from tehl.studies.store import Store
 
@@ -66,36 +66,10 @@ def run(  # noqa: PLR0913 (the arguments of the command)
             )
             raise
         write_answers(found, store, output)
-    _show(found, outcome, output, as_json=as_json)
-    return not (found.wrong or outcome.failed)
-
-
-def _show(found: Contacts, outcome: Outcome, output: Path, *, as_json: bool) -> None:
     if as_json:
-        numbers = {
-            "rows": len(found.rows),
-            "wrong": [row.message for row in found.wrong],
-            "equal": outcome.equal,
-            "reused": outcome.reused,
-            "converged": outcome.converged,
-            "failed": [
-                {"name": case.name, "cause": row.cause, "message": row.message}
-                for case, row in outcome.failed
-            ],
-            "cpu_seconds": outcome.cpu_seconds,
-            "wall_seconds": outcome.wall_seconds,
-            "table": str(output),
-        }
-        typer.echo(json.dumps(numbers))
-        return
-    show(
-        f"{outcome.converged} of {outcome.total} contacts converged, {outcome.reused} were "
-        f"finished before; {duration(outcome.wall_seconds)}"
-    )
-    if outcome.equal:
-        show(f"  {outcome.equal} further rows equal others, and are solved once")
-    if found.wrong:
-        show(f"  {len(found.wrong)} of {len(found.rows)} rows are wrong, see the table")
-    for case, row in outcome.failed[:MOST_NAMED_CASES]:
-        show(f"  failed: {case.name}: {row.message or row.cause}")
-    typer.echo(f"written: {output}", err=True)
+        wrong = [row.message for row in found.wrong]
+        typer.echo(as_json_of(outcome, rows=len(found.rows), wrong=wrong, table=str(output)))
+    else:
+        wrong_rows = f"{len(found.wrong)} of {len(found.rows)} rows are wrong, see the table"
+        show_outcome(outcome, [str(output)], "contacts", wrong_rows if found.wrong else "")
+    return not (found.wrong or outcome.failed)

@@ -19,6 +19,7 @@ from rich.progress_bar import ProgressBar
 from rich.table import Column, Table
 from rich.text import Text
 
+from tehl.base.wording import duration
 from tehl.cli.lazily import kernel_cache, monitors, runner, scaling, warmup
 
 if TYPE_CHECKING:
@@ -363,10 +364,3 @@ class StudyProgress(_Shown):
             pace = (self._clock() - self._start) / self._worked
             text += f", {duration(pace * max(self._work - self._worked, 0.0))} left"
         return f"{text}, {self.failed} failed" if self.failed else text
-
-
-def duration(seconds: float) -> str:
-    """Return a time with its unit: 40 s, 12 min, 3.5 h."""
-    if seconds < 90:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"

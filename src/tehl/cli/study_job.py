@@ -7,7 +7,7 @@ import shlex
 import signal
 import sys
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import closing, suppress
 from dataclasses import asdict, dataclass
 from importlib import import_module
@@ -19,8 +19,9 @@ import typer
 
 from tehl.base.atomic import check_place, check_writable, shortened
 from tehl.base.errors import InputError
+from tehl.base.wording import duration
 from tehl.cli.lines import show
-from tehl.cli.progress import MOST_NAMED_CASES, duration, study_progress
+from tehl.cli.progress import MOST_NAMED_CASES, study_progress
 from tehl.result.solution import settings_text
 from tehl.studies.case import Row
 from tehl.studies.file import read_study
@@ -98,9 +99,9 @@ def run(job: StudyJob) -> bool:
         outcome = _solved(study, folder, workers, job)
         written = _write(_table(study, folder), folder, plan.pictures)
     if job.as_json:
-        typer.echo(_outcome_as_json(outcome, written))
+        typer.echo(as_json(outcome, **written))
     else:
-        _show_outcome(outcome, written)
+        show_outcome(outcome, [*written["table"], *written["pictures"]], "cases")
     return not outcome.failed
 
 
@@ -267,7 +268,8 @@ def _show_forecast(study: Study, folder: Path, workers: int, *, as_json: bool) -
     show(f"  memory        about {found.memory_bytes / 1e6:.3g} MB besides the program")
 
 
-def _outcome_as_json(outcome: Outcome, written: Written) -> str:
+def as_json(outcome: Outcome, **others: object) -> str:
+    """Return what a run did as one JSON object, with ``others``."""
     failed = [
         {
             "name": case.name,
@@ -282,7 +284,7 @@ def _outcome_as_json(outcome: Outcome, written: Written) -> str:
         {"name": case.name, "retry_settings": dict(row.retry_settings)}
         for case, row in outcome.retried
     ]
-    counts = ("reused", "converged", "cpu_seconds", "wall_seconds")
+    counts = ("equal", "reused", "converged", "cpu_seconds", "wall_seconds")
     found = {
         "status": "not_converged" if failed else "converged",
         "cases": outcome.total,
@@ -290,29 +292,48 @@ def _outcome_as_json(outcome: Outcome, written: Written) -> str:
         "retried": retried,
         **{name: getattr(outcome, name) for name in counts},
     }
-    return json.dumps(found | written)
+    return json.dumps(found | others)
 
 
-def _show_outcome(outcome: Outcome, written: Written) -> None:
+def show_outcome(outcome: Outcome, written: Iterable[str], what: str, remark: str = "") -> None:
+    """Print what a run of cases did.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        Counts, failures with their hints, and retries.
+    written : iterable of str
+        Names of the files.
+    what, remark : str
+        What a case is called, and a sentence on those that are not solved.
+    """
     show(
-        f"{outcome.converged} of {outcome.total} cases converged, {outcome.reused} were finished "
+        f"{outcome.converged} of {outcome.total} {what} converged, {outcome.reused} were finished "
         f"before; {duration(outcome.wall_seconds)}"
     )
-    if outcome.equal:
-        show(f"  {outcome.equal} further rows equal others, and are solved once")
-    if outcome.uncertain:
-        show(
-            f"  {outcome.uncertain} of them with an uncertain minimum film: see the messages in "
-            "the table"
-        )
-    for case, row in outcome.failed[:MOST_NAMED_CASES]:
-        show(f"  failed: {case.name}: {row.message or row.cause}")
-    if len(outcome.failed) > MOST_NAMED_CASES:
-        show(f"  and {len(outcome.failed) - MOST_NAMED_CASES} more, see the table")
-    for case, row in outcome.retried[:MOST_NAMED_CASES]:
-        show(f"  converged on retry: {case.name}: {settings_text(row.retry_settings)}")
+    uncertain, more = outcome.uncertain, len(outcome.failed) - MOST_NAMED_CASES
+    lines = [
+        f"{outcome.equal} further rows equal others, and are solved once" if outcome.equal else "",
+        f"{uncertain} of them with an uncertain minimum film: see the messages in the table"
+        if uncertain
+        else "",
+        remark,
+    ]
+    lines += [
+        f"failed: {case.name}: {row.message or row.cause}"
+        for case, row in outcome.failed[:MOST_NAMED_CASES]
+    ]
+    lines.append(f"and {more} more, see the table" if more > 0 else "")
+    lines += [
+        f"converged on retry: {case.name}: {settings_text(row.retry_settings)}"
+        for case, row in outcome.retried[:MOST_NAMED_CASES]
+    ]
     hints = Counter(str(row.hint) for _, row in outcome.failed if row.hint)
-    for hint, count in hints.most_common(MOST_NAMED_CASES):
-        show(f"  hint: {hint}" if count == 1 else f"  hint for {count} of them: {hint}")
-    for path in (*written["table"], *written["pictures"]):
+    lines += [
+        f"hint: {hint}" if count == 1 else f"hint for {count} of them: {hint}"
+        for hint, count in hints.most_common(MOST_NAMED_CASES)
+    ]
+    for line in filter(None, lines):
+        show(f"  {line}")
+    for path in written:
         typer.echo(f"written: {path}", err=True)

@@ -14,6 +14,7 @@ from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import ConvergenceError, Result
 from tehl.base.errors import InputError, TehlError
 from tehl.base.lazy import lazy
+from tehl.base.wording import duration
 from tehl.contact.options import Options
 from tehl.explore.shown import Shown, shown
 from tehl.report.explain import Explanation, explain
@@ -274,11 +275,9 @@ def too_coarse(stage: Options, options: Options, found: Explanation, *, quick: b
     if quick:
         return TooCoarse(f"{words}: solved when the slider is released")
     rows, columns = found.expected_shape if options.points == "auto" else options.shape
-    return TooCoarse(f"{words}, solving {columns} × {rows}, about {_seconds(found.seconds)}")
-
-
-def _seconds(time: float) -> str:
-    return f"{max(1.0, float(f'{time:.1g}')):.0f} s"
+    return TooCoarse(
+        f"{words}, solving {columns} × {rows}, about {duration(max(1.0, found.seconds))}"
+    )
 
 
 def facts(found: Explanation) -> tuple[tuple[str, str], ...]:

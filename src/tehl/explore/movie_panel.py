@@ -1,12 +1,12 @@
 """The view of a transient run: a movie of the film with a slider for the time."""
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 from nicegui import ui
 
+from tehl.base.wording import duration
 from tehl.explore.axes import Frame, Scale, keys, svg
 from tehl.explore.colour_map import film_limits, film_picture
 from tehl.explore.elements import Drawing, button, main_button
@@ -102,7 +102,9 @@ class MoviePanel(JobPanel):
             )
         elif self.movie is None and not self.halt.visible:
             found = self.tab.explained
-            self.state.set_text("" if found is None else f"takes about {duration(found.seconds)}")
+            self.state.set_text(
+                "" if found is None else f"takes about {duration(max(1.0, found.seconds))}"
+            )
         elif self.text != self.tab.case.text:
             self.state.set_text("The case has changed since this run was solved.")
         self.draw()
@@ -150,13 +152,6 @@ class MoviePanel(JobPanel):
 def _least(movie: Movie) -> float:
     positive = movie.film[movie.film > 0]
     return float(positive.min()) if positive.size else 1.0
-
-
-def duration(seconds: float) -> str:
-    """Return a time in words, to one digit."""
-    if seconds < 100:
-        return f"{max(1, math.ceil(seconds)):g} s"
-    return f"{seconds / 60:.0f} min"
 
 
 def _history_drawing(movie: Movie, frame: int, size: tuple[float, float]) -> str:
