@@ -44,7 +44,13 @@ def test_no_setting_is_named_if_none_converges():
     failed = failure(100.0, points=33).result
     hint = working_hint(failed, lambda *_: failed, SILENT, math.inf)
     assert hint.settings == {}
-    assert "No setting is known" in str(hint)
+    assert str(hint) == "No setting is known with which this contact converges."
+    wave = {"type": "wave", "amplitude": "0.5 um", "wavelength": "50 um"}
+    rough = failed.problem.model_dump(exclude_unset=True)
+    rough["surface_1"]["roughness"] = wave
+    failed = replace(failed, problem=ContactProblem.model_validate(rough))
+    hint = working_hint(failed, lambda *_: failed, SILENT, math.inf)
+    assert "converges; lower or longer asperities may." in str(hint)
 
 
 def test_no_hint_removes_heat_or_names_another_oil():

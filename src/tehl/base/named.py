@@ -245,15 +245,11 @@ def _over(base: Mapping[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
     found = {key: value for key, value in base.items() if _RIVALS.get(key) not in stated}
     for key, value in stated.items():
         old = base.get(key)
-        if isinstance(old, Mapping) and isinstance(value, Mapping) and _is_of(old, value):
-            found[key] = _over(old, value)
-        else:
-            found[key] = value
+        found[key] = value
+        if isinstance(old, Mapping) and isinstance(value, Mapping):
+            law = old.get("law")
+            found[key] = _over(old, value) if value.get("law", law) == law else value
     return found
-
-
-def _is_of(old: Mapping[str, Any], stated: Mapping[str, Any]) -> bool:
-    return stated.get("law", old.get("law")) == old.get("law")
 
 
 def _constants(stated: Mapping[str, Any], path: str = "") -> Iterable[str]:

@@ -17,6 +17,7 @@ from tehl.base.typing import Array
 from tehl.contact.hertz import axes_of
 from tehl.explore.axes import Frame, Picture, Scale, number_text, svg, text, ticks, turned
 from tehl.explore.shown import Deep, Maps, Section, Shown, Span
+from tehl.plots.frame import stretched_label
 
 _LEFT_MARGIN, _RIGHT_MARGIN, _TOP_MARGIN, _BOTTOM_MARGIN, _BARE_MARGIN = (
     58.0,
@@ -180,7 +181,7 @@ def _map(maps: Maps, field: Array, look: Look, size: tuple[float, float]) -> Pic
     frame = _frame(maps.window, maps.stretch, size, _RIGHT_MARGIN if look.bar else _BARE_MARGIN)
     axes = (maps.x, maps.y)
     parts = _contours(field, axes, frame, look.levels) + _contact(frame, maps)
-    parts += frame.svg(_X_LABEL, _y_label(maps)) + _legend(frame, maps)
+    parts += frame.svg(_X_LABEL, stretched_label("y [µm]", maps.stretch)) + _legend(frame, maps)
     return _coloured(field, axes, frame, look, parts, f"map of the {look.label}")
 
 
@@ -191,14 +192,6 @@ def _coloured(
     parts += _colour_bar(frame, look) if look.bar else ""
     overlay = svg(frame.width, frame.height, parts, title)
     return Picture(frame, overlay, _png(_resampled(field, axes, frame), look))
-
-
-def _y_label(maps: Maps) -> str:
-    if maps.stretch == 1.0:
-        return "y [µm]"
-    if maps.stretch > 1.0:
-        return f"y [µm], stretched {maps.stretch:.2g}:1"
-    return f"y [µm], compressed 1:{1.0 / maps.stretch:.2g}"
 
 
 def _frame(

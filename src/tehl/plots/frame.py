@@ -252,9 +252,12 @@ def shape(result: Solution) -> float:
     return slenderness(result) * stretched(result)
 
 
-def stretch_in_words(stretch: float) -> str:
-    """Return how the scale of one axis differs from that of the other."""
-    return f"stretched {stretch:.2g}:1" if stretch > 1 else f"compressed 1:{1 / stretch:.2g}"
+def stretched_label(label: str, stretch: float) -> str:
+    """Return the label of an axis with how its scale differs from that of the other."""
+    if stretch == 1.0:
+        return label
+    words = f"stretched {stretch:.2g}:1" if stretch > 1 else f"compressed 1:{1 / stretch:.2g}"
+    return f"{label}, {words}"
 
 
 def slenderness(result: Solution) -> float:
@@ -310,7 +313,7 @@ def dress_contact(axes: Axes, result: Solution) -> None:
     x, y = ((low * a, high * a) for (low, high), a in zip(window(result), widths, strict=True))
     stretch = stretched(result)
     axes.set_aspect(stretch)
-    label = "y [µm]" if stretch == 1.0 else f"y [µm], {stretch_in_words(stretch)}"
+    label = stretched_label("y [µm]", stretch)
     axes.set(xlabel="x along entrainment [µm]", ylabel=label, xlim=x, ylim=y)
     slender = shape(result)
     axes.xaxis.set_major_locator(MaxNLocator(3 if slender > 2 else 8, steps=STEPS))

@@ -25,7 +25,7 @@ from tehl.plots.frame import (
     inner_levels,
     mark_levels,
     shape,
-    stretch_in_words,
+    stretched_label,
 )
 from tehl.post.stress.measures import largest_shear
 from tehl.post.stress.moving import MovingStress, moving_stress
@@ -148,7 +148,7 @@ def dress(axes: Axes, result: Solution, x: tuple[float, float], along: str = "x"
     label = f"{along} {'along' if along == 'x' else 'across'} entrainment [µm]"
     length = (x[1] - x[0]) / reach
     stretch = length / STRETCHED_SECTION if length > LONGEST_SECTION else 1.0
-    depth = "depth z [µm]" if stretch == 1.0 else f"depth z [µm], {stretch_in_words(stretch)}"
+    depth = stretched_label("depth z [µm]", stretch)
     axes.set(xlabel=label, ylabel=depth, xlim=x, ylim=(reach, 0.0))
     axes.set_aspect(stretch)
     for edge in (-width, width):

@@ -125,7 +125,7 @@ def _key(name: str, others: Mapping[str, str]) -> str | None:
     if word in _KEYS or word in others:
         return others.get(word) or _KEYS[word]
     paths = _paths()
-    if "." in text and text.split(".")[0] in _tables():
+    if "." in text and text.split(".")[0] in (*ContactProblem.model_fields, "numerics"):
         return text
     if text in paths:
         return text
@@ -135,10 +135,6 @@ def _key(name: str, others: Mapping[str, str]) -> str | None:
 
 def _paths() -> list[str]:
     return [*key_paths(ContactProblem), *key_paths(Options, "numerics.")]
-
-
-def _tables() -> set[str]:
-    return {*ContactProblem.model_fields, "numerics"}
 
 
 def check_columns(columns: Sequence[Column], lines: Sequence[Sequence[Any]]) -> None:

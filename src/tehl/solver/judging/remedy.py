@@ -106,7 +106,8 @@ def working_hint(
         return Hint(f"{grid_size((nx, ny))} converged.", error_setting(error))
     if is_short and end <= time.perf_counter():
         return Hint("The time to try other settings was over: more numerics.max_time tries more.")
-    return Hint("No setting is known with which this contact converges.")
+    other = "; lower or longer asperities may" if failed.problem.is_rough else ""
+    return Hint(f"No setting is known with which this contact converges{other}.")
 
 
 def _tried(settings: Settings, solve: Callable[[], Solution]) -> Hint | None:
