@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline, RectBivariateSpline
 from tehl.post.stress.influence import HalfSpace
 from tehl.post.stress.measures import largest_shear, von_mises
 from tehl.post.stress.numbers import peak
-from tehl.post.stress.periodic import periodic_stresses
+from tests.post.stress.periodic import periodic_stresses
 
 REFERENCE = tomllib.loads(
     (Path(__file__).parents[2] / "reference" / "stress.toml").read_text(encoding="utf-8")

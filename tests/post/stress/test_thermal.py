@@ -17,9 +17,9 @@ from tehl.post.stress.below import stress_below
 from tehl.post.stress.heated import thermal_stress_of
 from tehl.post.stress.influence import HalfSpace
 from tehl.post.stress.numbers import stress_numbers
-from tehl.post.stress.periodic import periodic_stresses
 from tehl.post.stress.slow import RestingStress, SlowStress, free_stresses
 from tehl.post.stress.thermal import Heated, ThermalStress
+from tests.post.stress.periodic import periodic_stresses
 
 STEEL = material("steel")
 UNIT = STEEL.young_modulus * STEEL.expansion / (1.0 - STEEL.poisson_ratio)
