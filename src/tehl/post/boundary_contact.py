@@ -17,7 +17,8 @@ from tehl.estimate.domain import domain_of
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.nodes import expected_bar
 from tehl.estimate.scaling import ScaledProblem
-from tehl.post.traction import cell_widths, rubbing_motion, traction
+from tehl.post.solids import SolidContact, carried_by_solids
+from tehl.post.traction import cell_widths, traction
 from tehl.result import registry
 from tehl.result.solution import Solution
 
@@ -46,44 +47,20 @@ class Patches:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Touching:
+class Touching(SolidContact):
     """How film and contact share load and friction."""
 
+    share_error: float
     margin: float
     """Film above the boundary film up to which surfaces count as touching [m]."""
-    share: float
-    """Load where they touch over the load, as this grid has it [-]."""
-    share_error: float
-    """Its error bar [-]."""
     is_certified: bool
     """Whether error bars from three grids belong to the share."""
     solid_share: float
     """Load of the contact pressure alone over the load [-]."""
-    area: float
-    """Area on which they touch [m^2]."""
-    area_part: float
-    """The same over the area of the Hertz contact [-]."""
     contact_pressure_max: float
     """Largest contact pressure [Pa]."""
-    pressure_max: float
-    """Largest pressure of film and contact together [Pa]."""
-    friction_boundary: float
-    """Friction where they touch over the load, positive; zero in pure rolling [-]."""
-    friction_film: float | None
-    """Friction of the film elsewhere, at mid-film, over the load, positive [-]; None where a
-    Newtonian film would transmit more than an oil can."""
-    power_boundary: float
-    """Heat of the contact that rubs [W]."""
     patches: Patches | None
     """None where nothing touches."""
-    balance: float
-    """Mass-balance error of film and contact, over the oil that enters [-]."""
-
-    @property
-    def friction(self) -> float | None:
-        """Friction coefficient of film and contact together [-]."""
-        film = self.friction_film
-        return None if film is None else film + self.friction_boundary
 
     @property
     def is_share_known(self) -> bool:
@@ -123,28 +100,24 @@ def touching(result: Solution) -> Touching | None:
     Sums over the nodes; the friction of the contact is the stated coefficient times the load where
     the surfaces touch.
     """
-    found, film, scales = result.contact, result.problem.contact_film, result.scales
+    found, film = result.contact, result.problem.contact_film
     if found is None or film is None or result.status.kind == "diverged":
         return None
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
     both = result.pressure + found.pressure
     meet = touching_nodes(result)
-    share = float((cells * both)[meet].sum()) / result.load
-    area = float(cells[meet].sum())
-    part, speed = rubbing_motion(result, np.where(meet, cells * both, 0.0))
+    load = np.where(meet, cells * both, 0.0)
+    carried = carried_by_solids(
+        result, load, film.friction, float(cells[meet].sum()), found.pressure
+    )
     return Touching(
+        **carried,
         margin=TOUCHING_MARGIN * film.thickness,
-        share=share,
-        share_error=_error_bar(result, film, share),
+        share_error=_error_bar(result, film, carried["share"]),
         is_certified=registry.at("touching.share").name in result.uncertainty,
         solid_share=float((cells * found.pressure).sum()) / result.load,
-        area=area,
-        area_part=area / (result.groups.shape.area * scales.half_width_x * scales.half_width_y),
         contact_pressure_max=float(found.pressure.max()),
-        pressure_max=float(both.max()),
-        friction_boundary=part * film.friction * share,
         friction_film=_film_friction(result),
-        power_boundary=film.friction * share * result.load * speed,
         patches=_patches(result, meet, cells * both, both),
         balance=float(found.balance),
     )
