@@ -1,6 +1,8 @@
 """The view of curves: a control is swept in the background, points appear as they are solved."""
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
@@ -32,18 +34,104 @@ _SPEED = "contact.entrainment_speed"
 _SLIDING = (0.003, 1.0)
 
 
+@dataclass
+class Curve:
+    """A curve that is solved: what is swept between which ends, and its points so far."""
+
+    knob: Knob
+    span: tuple[float, float]
+    wanted: int
+    """Number of its points."""
+    others: dict[str, Any]
+    """Tables of the contact without the key that is swept."""
+    points: list[Swept] = field(default_factory=list)
+
+    @property
+    def progress(self) -> str:
+        """How many points are solved, and why the last one that failed did."""
+        failed = [point for point in self.points if not point.numbers]
+        words = f"{len(self.points)} of {self.wanted} points"
+        return words + (f", {len(failed)} not converged: {failed[-1].words}" if failed else "")
+
+
+class SweepForm:
+    """Fields that state a sweep: a quantity, over which control, between which ends."""
+
+    def __init__(self, tab: Tab, draw: Callable[[], None]) -> None:
+        self.tab = tab
+        self.quantity = ui.select({}, label="quantity", on_change=draw)
+        self.over = ui.select({}, label="over", on_change=self.take_range)
+        self.low = ui.input("from").classes("sweep-end")
+        self.high = ui.input("to").classes("sweep-end")
+        self.count = ui.number(
+            "points", value=_DEFAULT_POINTS, min=3, max=_MOST_POINTS, precision=0
+        )
+        self.count.classes("sweep-end")
+        for one in (self.quantity, self.over, self.low, self.high, self.count):
+            one.props("dense outlined options-dense")
+
+    @property
+    def knob(self) -> Knob | None:
+        """The control that is swept."""
+        return swept_knobs(self.tab.groups).get(str(self.over.value))
+
+    def offer(self) -> None:
+        """Offer the controls of the case."""
+        names = {path: knob.label for path, knob in swept_knobs(self.tab.groups).items()}
+        kept = self.over.value if self.over.value in names else None
+        self.over.set_options(names, value=kept or next(iter(names), None))
+
+    def choose(self, key: str | None) -> None:
+        """Choose a quantity, and what it is swept over at first."""
+        assert self.tab.shown is not None
+        names = {one.key: one.name for one in self.tab.shown.numbers}
+        chosen = key or self.quantity.value or "h_central"
+        if names != self.quantity.options or chosen != self.quantity.value:
+            self.quantity.set_options(names, value=chosen if chosen in names else "h_central")
+        if key is not None:
+            wanted = _ABOVE.get(key, _SPEED)
+            if wanted in self.over.options:
+                self.over.set_value(wanted)
+        if key is not None or not self.low.value:
+            self.take_range()
+
+    def take_range(self) -> None:
+        """Propose the range around the present value."""
+        knob = self.knob
+        if knob is None:
+            return
+        low, high = knob.reach(knob.value)
+        if knob.path == _ABOVE["friction"]:
+            low, high = _SLIDING
+        self.low.set_value(f"{knob.number(low, knob.unit):.4g}")
+        self.high.set_value(f"{knob.number(high, knob.unit):.4g}")
+        self.low.props(f'label="from{_in_brackets(knob.unit)}"')
+        self.high.props(f'label="to{_in_brackets(knob.unit)}"')
+
+    def stated(self) -> tuple[tuple[float, float], int]:
+        """Return the ends and the number of points; an InputError if they are not valid."""
+        span = ends(str(self.low.value), str(self.high.value))
+        return span, int(min(max(self.count.value or _DEFAULT_POINTS, 3), _MOST_POINTS))
+
+
+def _in_brackets(unit: str) -> str:
+    return f" [{unit.replace('degC', '°C')}]" if unit else ""
+
+
 class CurvePanel(JobPanel):
     """Curves of a tab, solved in the background."""
 
     def __init__(self, tab: Tab, sweeps: Sweeps) -> None:
         super().__init__(tab, sweeps, "sweep")
-        self.points: list[Swept] = []
-        self.knob: Knob | None = None
-        self.span, self.wanted, self.size = (1.0, 10.0), 0, (720.0, 480.0)
+        self.curve: Curve | None = None
+        self.size = (720.0, 480.0)
         self._drawn: tuple[Frame | None, list[Point], tuple[str, str]] = None, [], ("", "")
-        self._around: Any = None  # the case of the curve, without what is swept
         with ui.element("div").classes("curves") as self.place:
-            self._build_choices()
+            with ui.element("div").classes("sweep-choices"):
+                self.form = SweepForm(tab, self.draw)
+                main_button("Solve", self.start, icon="play_arrow")
+                self.halt = button("Cancel", self.cancel)
+                self.halt.set_visibility(False)
             with ui.element("div").classes("sweep-state"):
                 self.state = ui.label("").classes("status-words")
                 self.bar = ui.linear_progress(0.0, show_value=False).props('aria-label="progress"')
@@ -55,117 +143,64 @@ class CurvePanel(JobPanel):
         self.place.set_visibility(False)
         tab.listeners.append(self._hear)
 
-    def _build_choices(self) -> None:
-        with ui.element("div").classes("sweep-choices"):
-            self.quantity = ui.select({}, label="quantity", on_change=self.draw)
-            self.over = ui.select({}, label="over", on_change=self._take_range)
-            self.low = ui.input("from").classes("sweep-end")
-            self.high = ui.input("to").classes("sweep-end")
-            self.count = ui.number(
-                "points", value=_DEFAULT_POINTS, min=3, max=_MOST_POINTS, precision=0
-            )
-            self.count.classes("sweep-end")
-            for field in (self.quantity, self.over, self.low, self.high, self.count):
-                field.props("dense outlined options-dense")
-            main_button("Solve", self.start, icon="play_arrow")
-            self.halt = button("Cancel", self.cancel)
-            self.halt.set_visibility(False)
-
-    # ---- what is swept
-
     def _hear(self, topic: str) -> None:
         if topic == "controls":
-            self._offer()
-        elif topic == "picture" and self.points and self._around != self._others():
-            self._progress()
+            self.form.offer()
+        elif topic == "picture" and self.curve is not None and self._has_changed(self.curve):
+            self._progress(self.curve)
         if topic in ("picture", "numbers") and self.tab.view == "curves":
             self.show()
 
-    def _offer(self) -> None:
-        """Offer the controls of the case."""
-        names = {path: knob.label for path, knob in swept_knobs(self.tab.groups).items()}
-        kept = self.over.value if self.over.value in names else None
-        self.over.set_options(names, value=kept or next(iter(names), None))
-
     def show(self, key: str | None = None) -> None:
         """Show the panel, with the curve of a quantity."""
-        shown = self.tab.shown
         self.place.set_visibility(self.tab.view == "curves")
-        if shown is None:
-            return
-        names = {one.key: one.name for one in shown.numbers}
-        chosen = key or self.quantity.value or "h_central"
-        if names != self.quantity.options or chosen != self.quantity.value:
-            self.quantity.set_options(names, value=chosen if chosen in names else "h_central")
-        if key is not None:
-            wanted = _ABOVE.get(key, _SPEED)
-            if wanted in self.over.options:
-                self.over.set_value(wanted)
-            self._take_range()
-        elif not self.low.value:
-            self._take_range()
-        self.draw()
-
-    def _take_range(self) -> None:
-        """Propose the range around the present value."""
-        knob = swept_knobs(self.tab.groups).get(str(self.over.value))
-        if knob is None:
-            return
-        low, high = knob.reach(knob.value)
-        if knob.path == _ABOVE["friction"]:
-            low, high = _SLIDING
-        self.low.set_value(f"{knob.number(low, knob.unit):.4g}")
-        self.high.set_value(f"{knob.number(high, knob.unit):.4g}")
-        unit = f" [{knob.unit.replace('degC', '°C')}]" if knob.unit else ""
-        self.low.props(f'label="from{unit}"')
-        self.high.props(f'label="to{unit}"')
+        if self.tab.shown is not None:
+            self.form.choose(key)
+            self.draw()
 
     # ---- the sweep
 
     def start(self) -> None:
         """Solve the curve in the background."""
-        knob = swept_knobs(self.tab.groups).get(str(self.over.value))
-        if knob is not None and self.submit(lambda: self._sweep(knob)):
-            self._around = self._others()
+        knob = self.form.knob
+        if knob is not None and self.submit(lambda: self._sweep(knob)) and self.curve is not None:
             self.halt.set_visibility(True)
-            self._progress()
+            self._progress(self.curve)
             self.draw()
 
     def _sweep(self, knob: Knob) -> Sweep:
         """Return the sweep that is asked for, of which no point is solved yet."""
-        tables, (low, high) = self.tab.tables, ends(str(self.low.value), str(self.high.value))
-        count = int(min(max(self.count.value or _DEFAULT_POINTS, 3), _MOST_POINTS))
-        self.points, self.knob, self.span, self.wanted = [], knob, (low, high), count
+        tables, ((low, high), count) = self.tab.tables, self.form.stated()
+        self.curve = Curve(knob, (low, high), count, self._others(knob))
         values = ((x, knob.stated(x, knob.unit)) for x in spread(low, high, count))
         return Sweep(tables, knob.path, tuple(values))
 
-    def _others(self) -> dict[str, Any] | None:
+    def _others(self, knob: Knob) -> dict[str, Any]:
         """Return the tables of the contact without the key that is swept."""
-        if self.knob is None:
-            return None
         case = CaseText(self.tab.case.text)
-        case.set(self.knob.path, None)
+        case.set(knob.path, None)
         return {name: table for name, table in case.tables.items() if name != "numerics"}
 
+    def _has_changed(self, curve: Curve) -> bool:
+        """Return whether the contact is no longer that of a curve."""
+        return bool(curve.points) and curve.others != self._others(curve.knob)
+
     def _take(self, swept: Swept) -> None:
-        self.points.append(swept)
-        self._progress()
-        self.draw()
+        if self.curve is not None:
+            self.curve.points.append(swept)
+            self._progress(self.curve)
+            self.draw()
 
     def _end(self, *, cancelled: bool) -> None:
         self.halt.set_visibility(False)
-        if cancelled:
-            self.state.set_text(f"cancelled after {len(self.points)} of {self.wanted} points")
+        if cancelled and self.curve is not None:
+            solved, wanted = len(self.curve.points), self.curve.wanted
+            self.state.set_text(f"cancelled after {solved} of {wanted} points")
 
-    def _progress(self) -> None:
-        failed = [point for point in self.points if not point.numbers]
-        words = f"{len(self.points)} of {self.wanted} points"
-        if failed:
-            words += f", {len(failed)} not converged: {failed[-1].words}"
-        if self._around != self._others():
-            words += ". The contact has changed since: solve again"
-        self.state.set_text(words)
-        self.bar.set_value(len(self.points) / max(self.wanted, 1))
+    def _progress(self, curve: Curve) -> None:
+        changed = ". The contact has changed since: solve again" * self._has_changed(curve)
+        self.state.set_text(curve.progress + changed)
+        self.bar.set_value(len(curve.points) / max(curve.wanted, 1))
 
     # ---- the picture
 
@@ -176,17 +211,16 @@ class CurvePanel(JobPanel):
 
     def draw(self) -> None:
         """Draw the points that are there."""
-        key, knob, shown = str(self.quantity.value), self.knob, self.tab.shown
-        if knob is None or shown is None or self.tab.view != "curves":
-            if knob is None:
-                self.drawing.set_content(_INVITATION)
+        key, curve, shown = str(self.form.quantity.value), self.curve, self.tab.shown
+        if curve is None:
+            self.drawing.set_content(_INVITATION)
+        if curve is None or shown is None or self.tab.view != "curves":
             return
-        named = value_of(shown.numbers, key)
-        unit = f" [{named.unit}]" if named and named.unit else ""
-        x_unit = f" [{knob.unit.replace('degC', '°C')}]" if knob.unit else ""
-        labels = (f"{knob.label}{x_unit}", f"{named.name if named else key}{unit}")
-        points = [self._point(one, key) for one in self.points]
-        chart = swept_chart(points, labels, self.size, self.span, self._here(knob, key))
+        named, knob = value_of(shown.numbers, key), curve.knob
+        name, unit = (named.name, named.unit) if named else (key, "")
+        labels = (f"{knob.label}{_in_brackets(knob.unit)}", f"{name}{_in_brackets(unit)}")
+        points = [self._point(one, key) for one in curve.points]
+        chart = swept_chart(points, labels, self.size, curve.span, self._here(knob, key))
         self.drawing.set_content(chart.overlay)
         self._drawn = chart.frame, points, labels
 
@@ -214,8 +248,9 @@ class CurvePanel(JobPanel):
         return Point(knob.number(knob.kind.parse(stated), knob.unit), found.value)
 
     def _save(self) -> None:
-        if self.points and self.knob is not None:
-            ui.download.content(_table_of(self.knob, self.points), "curve.csv", "text/csv")
+        if self.curve is not None and self.curve.points:
+            table = _table_of(self.curve.knob, self.curve.points)
+            ui.download.content(table, "curve.csv", "text/csv")
 
 
 _INVITATION = (
