@@ -5,7 +5,9 @@ import io
 import json
 import shutil
 from html import escape
+from importlib.resources import files
 from pathlib import Path
+from string import Template
 from typing import Any
 
 import numpy as np
@@ -97,47 +99,6 @@ def _write(movie: "Movie", path: Path, per_second: int) -> None:
             writer.grab_frame()
 
 
-_PAGE = """<!DOCTYPE html>
-<html lang="en">
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{title}</title>
-<style>
-body {{ font: 15px system-ui, sans-serif; text-align: center; margin: 1rem; }}
-img {{ max-width: 100%; }}
-input {{ width: min(30rem, 70vw); vertical-align: middle; }}
-button {{ min-width: 5rem; }}
-</style>
-<img id="picture" alt="{title}">
-<p><button id="play">pause</button> <input id="place" type="range" min="0" value="0"
-aria-label="moment"></p>
-<script>
-const moments = {moments};
-const [picture, place, play] = ["picture", "place", "play"].map(id => document.getElementById(id));
-let timer = null;
-function show(number) {{
-  picture.src = "data:image/png;base64," + moments[number];
-  place.value = number;
-}}
-function run() {{
-  timer = setInterval(() => show((Number(place.value) + 1) % moments.length), {pause});
-  play.textContent = "pause";
-}}
-function stop() {{
-  clearInterval(timer);
-  timer = null;
-  play.textContent = "play";
-}}
-place.max = moments.length - 1;
-place.addEventListener("input", () => {{ stop(); show(Number(place.value)); }});
-play.addEventListener("click", () => timer === null ? run() : stop());
-show(0);
-run();
-</script>
-</html>
-"""
-
-
 def _page(movie: "Movie", per_second: int) -> str:
     """Return a page with all moments inside, which needs no network."""
     moments = []
@@ -146,7 +107,9 @@ def _page(movie: "Movie", per_second: int) -> str:
         Image.fromarray(movie.pixels(number)).save(buffer, format="png", optimize=True)
         moments.append(base64.b64encode(buffer.getvalue()).decode("ascii"))
     title = escape(movie.run.start.problem.title or "Lubricated contact")
-    return _PAGE.format(title=title, moments=json.dumps(moments), pause=round(1e3 / per_second))
+    page = Template(files("tehl.plots").joinpath("movie.html").read_text(encoding="utf-8"))
+    pause = round(1e3 / per_second)
+    return page.substitute(title=title, moments=json.dumps(moments), pause=pause)
 
 
 def check_format(path: str | Path) -> str:
