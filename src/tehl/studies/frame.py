@@ -1,6 +1,5 @@
 """The table of a study as a notebook shows it: the main columns with units, and a picture."""
 
-from html import escape
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
@@ -33,28 +32,19 @@ class StudyTable(pd.DataFrame):
         if not {"status", "name", "film.h_central_m"} <= set(self.columns):
             return str(super()._repr_html_())
         labels = list(self.columns[1 : list(self.columns).index("status")])
-        known = _columns()
+        known, units = _columns(), self.attrs.get("units", {})
         shown = [key for key in known if key in self.columns and self[key].notna().any()]
-        units = self.attrs.get("units", {})
+        rows = self.iloc[:_SHOWN_ROWS]
+        status = rows["status"].str.replace("_", " ")
+        if "cause" in rows:
+            status = status.where(rows["cause"].isna(), status + ": " + rows["cause"])
+        cells = [rows[label] for label in labels] + [status]
+        page = pd.concat([*cells, *(known[key][1] * rows[key] for key in shown)], axis=1)
         heads = [_head(label, units.get(label, "1")) for label in labels]
-        heads += ["status", *(known[key][0] for key in shown)]
-        factors = {key: known[key][1] for key in shown}
-        rows = "".join(
-            self._row(row, labels, factors) for row in range(min(len(self), _SHOWN_ROWS))
-        )
+        page.columns = pd.Index([*heads, "status", *(known[key][0] for key in shown)])
         rest = f"<p>{len(self) - _SHOWN_ROWS} more cases</p>" if len(self) > _SHOWN_ROWS else ""
-        head = "".join(f"<th>{escape(word)}</th>" for word in heads)
-        page = f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>{rest}"
-        return page + self._curve(labels)
-
-    def _row(self, number: int, labels: list[str], factors: dict[str, float]) -> str:
-        line = self.iloc[number]
-        cells = [_cell(line[label]) for label in labels]
-        status = str(line["status"]).replace("_", " ")
-        cause = line.get("cause")
-        cells.append(status if not isinstance(cause, str) else f"{status}: {cause}")
-        cells += [_cell(factor * line[key]) for key, factor in factors.items()]
-        return "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
+        style: Any = {"index": False, "border": 0, "na_rep": "–", "float_format": "{:.4g}".format}
+        return f"{page.to_html(**style)}{rest}{self._curve(labels)}"
 
     def _curve(self, labels: list[str]) -> str:
         """Return the central film over the first label of numbers, nothing with too few cases."""
@@ -81,9 +71,3 @@ def _columns() -> dict[str, tuple[str, float]]:
 
 def _head(label: str, unit: str) -> str:
     return label if unit == "1" else f"{label} [{unit}]"
-
-
-def _cell(value: Any) -> str:
-    if isinstance(value, str):
-        return value
-    return "–" if pd.isna(value) else f"{value:.4g}"
