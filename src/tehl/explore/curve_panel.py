@@ -249,7 +249,7 @@ class CurvePanel(JobPanel):
 
     def _save(self) -> None:
         if self.curve is not None and self.curve.points:
-            table = _table_of(self.curve.knob, self.curve.points)
+            table = table_of(self.curve.knob, self.curve.points)
             ui.download.content(table, "curve.csv", "text/csv")
 
 
@@ -289,21 +289,15 @@ def spread(low: float, high: float, count: int) -> tuple[float, ...]:
     return tuple(float(f"{places[k]:.5g}") for k in order)
 
 
-def _table_of(knob: Knob, points: list[Swept]) -> str:
+def table_of(knob: Knob, points: list[Swept]) -> str:
     """Return a sweep as CSV: the control, then each quantity with its relative error."""
-    known = [point for point in points if point.numbers]
-    keys = [one.key for one in known[0].numbers] if known else []
-    head = [f"{knob.path} [{knob.unit or '1'}]"]
-    for key in keys:
-        one = value_of(known[0].numbers, key)
-        unit = one.unit if one is not None else ""
-        head += [f"{key} [{unit or '1'}]", f"{key}_error"]
-    lines = [",".join(head)]
-    for point in sorted(known, key=lambda point: point.x):
-        cells = [f"{point.x:.6g}"]
-        for key in keys:
-            one = value_of(point.numbers, key)
-            value, error = (one.value, one.error) if one is not None else (None, None)
-            cells += ["" if cell is None else f"{cell:.6g}" for cell in (value, error)]
-        lines.append(",".join(cells))
-    return "\n".join(lines) + "\n"
+    import pandas as pd  # noqa: PLC0415 (0.5 s)
+
+    swept = f"{knob.path} [{knob.unit or '1'}]"
+    rows = list[dict[str, float | None]]()
+    for point in (point for point in points if point.numbers):
+        rows.append({swept: point.x})
+        for one in point.numbers:
+            rows[-1] |= {f"{one.key} [{one.unit or '1'}]": one.value, f"{one.key}_error": one.error}
+    table = pd.DataFrame(rows, columns=None if rows else [swept]).sort_values(swept)
+    return table.to_csv(index=False, float_format="%.6g")
