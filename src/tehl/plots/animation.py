@@ -5,7 +5,6 @@ import io
 import json
 import shutil
 from html import escape
-from importlib.resources import files
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -107,7 +106,7 @@ def _page(movie: "Movie", per_second: int) -> str:
         Image.fromarray(movie.pixels(number)).save(buffer, format="png", optimize=True)
         moments.append(base64.b64encode(buffer.getvalue()).decode("ascii"))
     title = escape(movie.run.start.problem.title or "Lubricated contact")
-    page = Template(files("tehl.plots").joinpath("movie.html").read_text(encoding="utf-8"))
+    page = Template(Path(__file__).with_name("movie.html").read_text(encoding="utf-8"))
     pause = round(1e3 / per_second)
     return page.substitute(title=title, moments=json.dumps(moments), pause=pause)
 
