@@ -92,7 +92,10 @@ def test_a_contact_that_lacks_time_gets_an_error_that_was_reached():
     assert solve(moes(100.0), Options(error=status.hint.settings["numerics.error"]))
 
 
-@pytest.mark.parametrize(("reached", "named"), [(0.03, "4 %"), (0.44, "49 %"), (0.47, None)])
+@pytest.mark.parametrize(
+    ("reached", "named"),
+    [(1e-5, "0.01 %"), (6.4e-4, "0.08 %"), (0.03, "4 %"), (0.44, "49 %"), (0.47, None)],
+)
 def test_an_error_is_named_only_where_it_can_be_asked_for(reached, named):
     found = error_setting(reached)
     assert found == ({} if named is None else {"numerics.error": named})

@@ -38,6 +38,10 @@ def contacts(  # noqa: PLR0913 (the options of the command)
 ) -> None:
     """Solve each row of a table of contacts; write the table with the answers beside it.
 
+    Headings are keys of a case file or words for them, with a unit: load [N], speed [m/s],
+    radius_1 [mm], p_h [GPa], temperature [degC], oil, sq_1 [um]. What they do not state is that of
+    the template.
+
     The same command continues a list that was interrupted. Exit code 0: all rows converged; 1: some
     are wrong or failed, and are named; 2: bad input, nothing is solved.
     """

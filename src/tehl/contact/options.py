@@ -46,8 +46,8 @@ extrapolation."""
 MOST_STRETCH, LARGEST_COARSEST = 4, 2500
 """Most intervals along one direction over those along the other, and most nodes of the coarsest
 grid, which is as different along both where cells are not long: its Newton matrix is dense."""
-LARGEST_ERROR = 0.5
-"""Largest error that can be asked for."""
+LEAST_ERROR, LARGEST_ERROR = 1e-4, 0.5
+"""Least and largest error that can be asked for."""
 LARGEST_DOMAIN_EDGE = 1e3
 """Hertz half-widths within which a domain must stay."""
 
@@ -97,7 +97,7 @@ class Options(Table):
         "max_time": "timeout time_limit",
     }
 
-    error: Annotated[Share, Field(ge=1e-4, le=LARGEST_ERROR)] | None = None
+    error: Annotated[Share, Field(ge=LEAST_ERROR, le=LARGEST_ERROR)] | None = None
     """Relative error of the central and of the minimum film to reach, such as ``"0.5 %"``;
     left out, it is 1 %, 2 % where the film is not extrapolated; in smooth line
     contacts 0.2 %, with heat or thinning 0.5 %.

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from tehl.base.units import percentage
 from tehl.base.wording import grid_size
 from tehl.contact.heat import FAR_BODY, FilmEnergy
-from tehl.contact.options import LARGEST_ERROR, USUAL_PLAIN_ERROR
+from tehl.contact.options import LARGEST_ERROR, LEAST_ERROR, USUAL_PLAIN_ERROR
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import chosen_domain
 from tehl.estimate.film_formulas import expected_film, inlet_stress
@@ -136,8 +136,10 @@ def _error_hint(run: FilmSolver) -> Hint | None:
 
 def error_setting(reached: float) -> Settings:
     """Return the setting of an error just above one that was reached; none above the largest."""
-    error = math.ceil(110.0 * reached)
-    return {"numerics.error": f"{error} %"} if error <= 100.0 * LARGEST_ERROR else {}
+    percent = max(110.0 * reached, 100.0 * LEAST_ERROR)
+    step = min(10.0 ** math.floor(math.log10(percent)), 1.0)
+    error = step * math.ceil(percent / step)
+    return {"numerics.error": f"{error:g} %"} if error <= 100.0 * LARGEST_ERROR else {}
 
 
 def _smoother_hint(run: FilmSolver) -> Hint | None:
