@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _DECIMAL_COMMA = re.compile(r"^([+-]?\d+),(\d+)(?=[eE\s]|$)")
 _UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
-_LARGEST_LIST = 50_000_000
+LARGEST_LIST = 50_000_000
 """Bytes of a list."""
 _PACKAGES = {".xlsx": ("openpyxl", "xlsx"), ".parquet": ("pyarrow", "parquet")}
 """Packages of formats, and the extras that install them."""
@@ -82,8 +82,8 @@ def lines_of(path: Path, what: str = "list of cases") -> list[tuple[int, list[An
         check_package(*_PACKAGES[ending], path)
     kind, read = _READERS.get(ending, (f"a {what}", _csv))
     try:
-        if path.stat().st_size > _LARGEST_LIST:
-            raise InputError(f"{shown} is larger than {_LARGEST_LIST // 10**6} MB, so not a {what}")
+        if path.stat().st_size > LARGEST_LIST:
+            raise InputError(f"{shown} is larger than {LARGEST_LIST // 10**6} MB, so not a {what}")
         found = ((number, [stripped(cell) for cell in line]) for number, line in read(path))
         lines = [(number, line) for number, line in found if any(cell is not None for cell in line)]
     except FileNotFoundError:

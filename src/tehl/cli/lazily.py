@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tehl.kernels import cache as kernel_cache
     from tehl.kernels import samples, warmup
     from tehl.lubricant import fluid as oil_library
+    from tehl.lubricant import law as oil_laws
     from tehl.plots import animation
     from tehl.plots import surface as surface_pictures
     from tehl.post import layer as layers
@@ -53,6 +54,7 @@ else:
     samples = lazy("tehl.kernels.samples")
     warmup = lazy("tehl.kernels.warmup")
     oil_library = lazy("tehl.lubricant.fluid")
+    oil_laws = lazy("tehl.lubricant.law")
     plots = lazy("tehl.plots")
     animation = lazy("tehl.plots.animation")
     surface_pictures = lazy("tehl.plots.surface")

@@ -9,7 +9,7 @@ from typer import Argument, Option, echo
 
 from tehl.base.errors import InputError
 from tehl.cli.arguments import AsJson
-from tehl.cli.lazily import libraries, oil_library, solid_library
+from tehl.cli.lazily import libraries, oil_laws, oil_library, solid_library
 from tehl.cli.lines import show
 
 if TYPE_CHECKING:
@@ -20,8 +20,6 @@ Text = Annotated[
     Argument(help="A name shows its constants; other text filters the list.", show_default=False),
 ]
 AsTable = Annotated[bool, Option("--table", help="Print the table of a case file only.")]
-FORTY = 313.15
-"""Temperature at which oils are compared [K]."""
 
 
 def oils(text: Text = None, *, table: AsTable = False, as_json: AsJson = False) -> None:
@@ -30,7 +28,8 @@ def oils(text: Text = None, *, table: AsTable = False, as_json: AsJson = False) 
 
     def row(one: "Named") -> tuple[str, ...]:
         law = oil_library.Lubricant.model_validate(one.table).viscosity
-        eta, alpha = 1e3 * law.ambient(FORTY), 1e9 * law.pressure_coefficient_at(FORTY)
+        degrees = oil_laws.FORTY_DEGREES
+        eta, alpha = 1e3 * law.ambient(degrees), 1e9 * law.pressure_coefficient_at(degrees)
         known = next((one.evidence[key][0] for key in ("alpha", "B") if key in one.evidence), "")
         return f"{eta:.4g}", f"{alpha:.3g}", known
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Discriminator
 
 from tehl.base.units import Density, PressureCoefficient, Temperature, TemperatureCoefficient
-from tehl.lubricant.law import DensityModel, Values, limited
+from tehl.lubricant.law import FORTY_DEGREES, DensityModel, Values, limited
 from tehl.lubricant.registered import RegisteredLaws
 from tehl.lubricant.tait import TaitDensity
 from tehl.lubricant.trial import try_density
@@ -39,7 +39,7 @@ class DowsonHigginson(DensityModel):
     """Thermal expansion [1/K]."""
     form: Literal["product", "additive"] = "product"
     """How pressure and temperature combine."""
-    reference_temperature: Temperature = 313.15
+    reference_temperature: Temperature = FORTY_DEGREES
     """T_0 [K]."""
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:

@@ -11,6 +11,8 @@ from tehl.base.typing import Array, np
 
 LARGEST_LAW_EXPONENT = 600.0
 """``exp`` of more would overflow; so thick a film is a solid for every purpose."""
+FORTY_DEGREES = 313.15
+"""Temperature at which oils are stated, compared and tried if they state no other [K]."""
 SLOPE_PRESSURE, SLOPE_KELVIN = 1e4, 1e-2
 """Steps of the differences [Pa], [K] of laws without coefficients of their own."""
 

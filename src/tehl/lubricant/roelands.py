@@ -6,7 +6,14 @@ from typing import Any, Literal, Self
 from pydantic import model_validator
 
 from tehl.base.units import Ratio, Temperature, TemperatureCoefficient, Viscosity
-from tehl.lubricant.law import ExponentialFall, Values, ViscosityModel, exponential, limited
+from tehl.lubricant.law import (
+    FORTY_DEGREES,
+    ExponentialFall,
+    Values,
+    ViscosityModel,
+    exponential,
+    limited,
+)
 from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
 
 ROELANDS_OFFSET = 9.67  # -ln of 6.31e-5 Pa s, the viscosity at Roelands' common point
@@ -95,7 +102,7 @@ class Roelands(_RoelandsPressure):
 
     law: Literal["roelands"] = "roelands"
     S0: Ratio | None = None
-    reference_temperature: Temperature = 313.15
+    reference_temperature: Temperature = FORTY_DEGREES
 
     @model_validator(mode="after")
     def _must_have_one_fall(self) -> Self:
@@ -179,7 +186,7 @@ class RoelandsExponential(ExponentialFall, _RoelandsPressure):
     """
 
     law: Literal["roelands-exponential"] = "roelands-exponential"
-    reference_temperature: Temperature = 313.15
+    reference_temperature: Temperature = FORTY_DEGREES
 
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return alpha [1/Pa] at any ``temperature`` [K]."""

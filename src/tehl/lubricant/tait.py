@@ -25,7 +25,15 @@ from tehl.base.units import (
     TemperatureCoefficient,
     Viscosity,
 )
-from tehl.lubricant.law import DensityModel, Values, ViscosityModel, exponential, functions, limited
+from tehl.lubricant.law import (
+    FORTY_DEGREES,
+    DensityModel,
+    Values,
+    ViscosityModel,
+    exponential,
+    functions,
+    limited,
+)
 
 LEAST_VOLUME = 0.2
 """Least part of a volume that the equations of this module compress or cool to."""
@@ -51,7 +59,7 @@ class TaitDensity(DensityModel):
     """a_V, thermal expansion of the volume [1/K]."""
     softening: TemperatureCoefficient = 0.0
     """beta_K, fall of the bulk modulus with temperature [1/K]; about 0.006 for oils."""
-    reference_temperature: Temperature = 313.15
+    reference_temperature: Temperature = FORTY_DEGREES
     """T_0 [K]."""
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:
@@ -93,7 +101,7 @@ class TaitDoolittle(ViscosityModel):
     expansion: TemperatureCoefficient = 0.0
     softening: TemperatureCoefficient = 0.0
     """K_0R [Pa], K_0' [-], a_V [1/K] and beta_K [1/K] of the equation of state."""
-    reference_temperature: Temperature = 313.15
+    reference_temperature: Temperature = FORTY_DEGREES
     """T_0 [K]."""
 
     def pressure_coefficient_at(self, temperature: float) -> float:

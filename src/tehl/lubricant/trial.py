@@ -5,14 +5,12 @@ from collections.abc import Callable
 from typing import Any
 
 from tehl.base.typing import Array, np
-from tehl.lubricant.law import DensityModel, ViscosityModel
+from tehl.lubricant.law import FORTY_DEGREES, DensityModel, ViscosityModel
 
 PRESSURES = (0.0, 5e8, 1e9, 3e9)
 """Where laws are tried [Pa]."""
 TEMPERATURES = (-60.0, 0.0, 40.0, 700.0)
 """Where laws are tried, above the reference temperature [K]."""
-USUAL_TEMPERATURE = 313.15
-"""Temperature of laws without a reference temperature [K]."""
 SAME_VALUE = 1e-9
 """Relative difference of the values of numbers and of arrays."""
 SAME_STRESS = 1e-4
@@ -29,7 +27,7 @@ def try_viscosity(law: ViscosityModel) -> None:
 
 def try_density(law: DensityModel) -> None:
     """Raise ValueError if ``law`` does not give densities of numbers and of arrays."""
-    _try("density", law.density, USUAL_TEMPERATURE)
+    _try("density", law.density, FORTY_DEGREES)
 
 
 def try_shear(law: Any) -> None:

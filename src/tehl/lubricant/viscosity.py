@@ -5,7 +5,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Discriminator, model_validator
 
 from tehl.base.units import Temperature, TemperatureCoefficient, Viscosity
-from tehl.lubricant.law import ExponentialFall, Values, ViscosityModel
+from tehl.lubricant.law import FORTY_DEGREES, ExponentialFall, Values, ViscosityModel
 from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
 from tehl.lubricant.registered import RegisteredLaws
 from tehl.lubricant.roelands import Roelands, RoelandsExponential
@@ -27,7 +27,7 @@ class Barus(ExponentialFall):
     """Pressure coefficient [1/Pa], or "estimated"."""
     gamma: TemperatureCoefficient | None = None
     """Temperature coefficient [1/K]; None: independent of temperature."""
-    reference_temperature: Temperature = 313.15
+    reference_temperature: Temperature = FORTY_DEGREES
     """T_0 [K]."""
 
     @model_validator(mode="after")
@@ -52,7 +52,7 @@ class ConstantViscosity(ViscosityModel):
     law: Literal["constant"] = "constant"
     eta_0: Viscosity
     """Viscosity [Pa s]."""
-    reference_temperature: Temperature = 313.15
+    reference_temperature: Temperature = FORTY_DEGREES
     """Temperature at which it holds [K]."""
 
     def pressure_coefficient_at(self, temperature: float) -> float:

@@ -13,11 +13,18 @@ from tehl.base.units import (
     Temperature,
     TemperatureCoefficient,
 )
-from tehl.lubricant.law import Values, ViscosityModel, exponential, functions, limited
+from tehl.lubricant.law import (
+    FORTY_DEGREES,
+    Values,
+    ViscosityModel,
+    exponential,
+    functions,
+    limited,
+)
 from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
 from tehl.lubricant.roelands import PER_ROELANDS_PRESSURE, ROELANDS_OFFSET, ROELANDS_PRESSURE
 
-_FORTY, _HUNDRED = 313.15, 373.15  # [K]
+_HUNDRED_DEGREES = 373.15  # [K]
 _SHIFT = 0.7  # [mm^2/s]
 _MM2_PER_S = 1e6
 _LARGEST_LOG_VISCOSITY = (
@@ -51,7 +58,7 @@ class Walther(ViscosityModel):
     """Pressure coefficient at ambient pressure and ``alpha_temperature`` [1/Pa], or "estimated"."""
     z: Ratio | None = None
     """Pressure index [-]."""
-    alpha_temperature: Temperature = _FORTY
+    alpha_temperature: Temperature = FORTY_DEGREES
     """Where alpha holds [K]."""
     density: Density | None = None
     """Density at ambient pressure and 40 degC [kg/m^3]; None in an oil takes that of its density
@@ -74,7 +81,7 @@ class Walther(ViscosityModel):
     @property
     def reference_temperature(self) -> float:
         """Return 40 degC [K], where the oil enters if nothing else is said."""
-        return _FORTY
+        return FORTY_DEGREES
 
     @property
     def eta_0(self) -> float:
@@ -117,14 +124,14 @@ class Walther(ViscosityModel):
     def _slope(self) -> float:
         """Return B [-]."""
         steps = math.log10(_loglog(self.nu_40) / _loglog(self.nu_100))
-        return steps / math.log10(_HUNDRED / _FORTY)
+        return steps / math.log10(_HUNDRED_DEGREES / FORTY_DEGREES)
 
     def _log_shifted(self, temperature: Any) -> Any:
         """Return log10 of nu + 0.7 in mm^2/s."""
-        return _loglog(self.nu_40) * (_FORTY / temperature) ** self._slope
+        return _loglog(self.nu_40) * (FORTY_DEGREES / temperature) ** self._slope
 
     def _volume(self, temperature: Any) -> Any:
-        return limited(1.0 + self.expansion * (temperature - _FORTY), 0.1)
+        return limited(1.0 + self.expansion * (temperature - FORTY_DEGREES), 0.1)
 
     def _ambient(self, temperature: Any) -> Any:
         kinematic = (

@@ -11,6 +11,7 @@ from tehl.contact.options import Options
 from tehl.estimate.duration import duration_of, misplaced, number_of_steps
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
+from tehl.report.roughness import RESOLVES
 
 SECONDS_PER_STEP = 0.014
 SECONDS_PER_NODE = 1.7e-6
@@ -20,8 +21,6 @@ the last one where heat or shear thinning is coupled."""
 TOUCHING_PER_STEP, TOUCHING_PER_NODE = 0.08, 1.5e-5
 """The same of Newton's method where surfaces may touch, of a symmetric contact; of another one each
 node takes twice as long."""
-FEWEST_POINTS = 16.0
-"""Points per wave below which the amplitude of a passing wave is off by some per cent."""
 LARGEST_PART = 0.25
 """Largest distance that a surface moves per step, over its shortest wave."""
 LARGEST_LEAD = 1.0
@@ -127,10 +126,10 @@ def _questions(
     if sentence is not None:
         yield sentence
     for name, one, shift in zip(("surface_1", "surface_2"), points, shifts, strict=True):
-        if one < FEWEST_POINTS:
+        if one < RESOLVES:
             yield (
                 f"{name} has {one:.3g} points on its shortest wave: the grid flattens the wave "
-                f"more than the film does; take {FEWEST_POINTS:g} or more (numerics.points)"
+                f"more than the film does; take {RESOLVES} or more (numerics.points)"
             )
         lead = abs(shift - stride)
         if math.isfinite(one) and lead > LARGEST_LEAD:

@@ -13,6 +13,7 @@ from typing import Any, Literal
 from tehl.base.atomic import shortened
 from tehl.base.encoding import encoding_of
 from tehl.base.errors import InputError
+from tehl.base.lists import LARGEST_LIST
 
 Probe = Literal["lube", "pot"]
 """Where the rig measures the temperature: in the oil at the contact, or in the pot around it."""
@@ -26,8 +27,6 @@ _CURVES = ("FILM", "TRACTION", "STRIBECK")
 _PROBES: dict[Probe, re.Pattern[str]] = {
     probe: re.compile(rf"{probe}\b.*\btemp\b.*", re.IGNORECASE) for probe in ("lube", "pot")
 }
-_LARGEST_RIG_FILE = 50_000_000
-"""Bytes of a file."""
 _LARGEST_DIFFERENCE = 20.0
 """Temperatures of both probes [K] beyond which one of them is not in the oil."""
 
@@ -68,7 +67,7 @@ def rig_lines(path: Path, probe: Probe | None = None) -> list[tuple[int, list[An
 def _text(path: Path) -> str | None:
     """Return the text of a file; None if it is missing, too large or not a text."""
     try:
-        if path.stat().st_size > _LARGEST_RIG_FILE:
+        if path.stat().st_size > LARGEST_LIST:
             return None
         content = path.read_bytes()
     except OSError:
