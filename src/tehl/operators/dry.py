@@ -38,32 +38,35 @@ def dry_roller(grid: Grid, groups: Groups) -> tuple[Array, Array]:
     weight = grid.widths[:, None]
     p = np.where(inside, shape.dry_pressure(grid.x[None, :], grid.y[:, None]), 0.0)
     p *= shape.load / load.integral(p)
-    rest, bent, step = (
-        np.empty_like(undeformed),
-        np.empty_like(undeformed),
-        np.zeros_like(undeformed),
-    )
-    conjugate, before, tilts = 0.0, 1.0, np.zeros(0)
+    film, moved, step = (np.zeros_like(undeformed) for _ in range(3))
+    conjugate, before, tilts, known = 0.0, 1.0, np.zeros(0), False
     modes, moments = rigid_motions(grid, groups)
     modes = modes[1:, :, None]
     for _ in range(MOST_DESCENTS):
         touching = p > 0.0
-        deformation.deflect(p, rest)
-        rest += undeformed
-        part = touching * weight
+        if not known:
+            deformation.deflect(p, film)
+        rest, part = film + undeformed, touching * weight
         tilts = -_take_motions(rest, part, modes)
         square = float((part * rest**2).sum())
         step = np.where(touching, rest + conjugate * square / before * step, 0.0)
-        deformation.deflect(step, bent)
+        deformation.deflect(step, moved)
+        bent = moved.copy()
         _take_motions(bent, part, modes)
         work = float((part * bent * step).sum())
         if not work > 0.0:  # one column of nodes touches, whose gap is its own mean
             break
         length = float((part * rest * step).sum()) / work
-        last, p = p, np.maximum(p - length * step, 0.0)
+        descended = p - length * step
+        last, p = p, np.maximum(descended, 0.0)
         missed = inside & (p == 0.0) & (rest < 0.0)
         p[missed] -= length * rest[missed]
-        p *= shape.load / load.integral(p)
+        scale = shape.load / load.integral(p)
+        p *= scale
+        # half of the products are saved where the contact stays as it is
+        known = not (modes.size or missed.any() or descended.min() < 0.0)
+        if known:
+            film = scale * (film - length * moved)
         for mode, moment in zip(modes, moments, strict=True):
             arm = mode - load.integral(mode * p) / shape.load
             more = (moment - load.integral(mode * p)) / load.integral(arm * mode * p)

@@ -63,20 +63,21 @@ class Influence:
 
         Those of the ends have half a width; on half a domain with the mirror image.
         """
+        lines = np.array([self.on_line(grid, row) for row in range(grid.shape[0])])
+        return np.ascontiguousarray(reciprocal(lines.transpose(2, 0, 1), grid).transpose(1, 2, 0))
+
+    def on_line(self, grid: Grid, row: int) -> Array:
+        """Return the influence of each line on one of lines that crowd, (from, column offset).
+
+        Before `reciprocal`: at the node, wherever it lies in its cell.
+        """
         stretch = self.dy / grid.dy
         u = self.dx * (np.arange(grid.nx + 1.0) - 0.5)
-        faces, y = stretch * grid.faces, stretch * grid.y
-        lines = np.empty((y.size, y.size, grid.nx))
-        for line, place in zip(lines, y, strict=True):
-            line[:] = self._of_cells(u, faces - place)
-            if grid.mirror:
-                line[1:] += self._of_cells(u, faces[1:] + place)
-        # the work of one line on another is that of the other on it, so that it makes no moment
-        work = lines * grid.widths[:, None, None]
-        found = 0.5 * (work + work.transpose(1, 0, 2)) / grid.widths[:, None, None]
-        ends = [-1] if grid.mirror else [0, -1]  # not in the middle of their cells
-        found[ends] = lines[ends]
-        return np.asarray(found)
+        faces, place = stretch * grid.faces, stretch * grid.y[row]
+        found = self._of_cells(u, faces - place)
+        if grid.mirror:
+            found[1:] += self._of_cells(u, faces[1:] + place)
+        return found
 
     def beside(self, grid: Grid, reach: int, columns: int) -> Array:
         """Return the influence of lines that crowd on those near them.
@@ -204,6 +205,26 @@ class MirroredInfluence(Influence):
         lines[:, 1:-1] += table[np.minimum(images, self.lines - images)]
         blocks = lines[:, :, np.abs(i[:, None] - i)].transpose(0, 2, 1, 3)
         return np.asarray(blocks.reshape(2 * (ny * nx,)))
+
+
+def reciprocal(lines: Array, grid: Grid) -> Array:
+    """Return influences of lines that crowd whose work on each other is the same both ways.
+
+    So the deflection makes no moment. Those on the ends, which are not in the middle of their
+    cells, stay as they are.
+
+    Parameters
+    ----------
+    lines : (n, rows, rows) array
+        Influence on each line of each other one (`Influence.on_line`), or parts of it.
+    grid : Grid
+        With the widths of the lines.
+    """
+    work = lines * grid.widths[:, None]
+    found = 0.5 * (work + work.transpose(0, 2, 1)) / grid.widths[:, None]
+    ends = [-1] if grid.mirror else [0, -1]
+    found[:, ends] = lines[:, ends]
+    return np.asarray(found)
 
 
 def _end(x: Array) -> Array:

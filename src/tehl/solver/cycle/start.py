@@ -71,8 +71,10 @@ def from_coarser(coarse: Level, fine: Level) -> None:
         The unknowns of the finer one change in place.
     """
     oil, asperity = refine(coarse.film.p, fine.grid), coarse.film.asperity
-    if fine.grid.is_closed and fine.grid.shape[0] > coarse.grid.shape[0]:
-        # at the ends of a roller the dry pressure is steep, but not the difference to it
+    is_steep = fine.grid.is_closed and not fine.grid.crowding
+    if is_steep and fine.grid.shape[0] > coarse.grid.shape[0]:
+        # at the ends of a roller the dry pressure is steep, but not the difference to it; over the
+        # numbers of lines that crowd there it is smooth
         dry, groups = coarse.film.p.copy(), coarse.equations.groups
         dry -= dry_pressure(coarse.grid, groups)
         rise = refine_signed(dry, fine.grid)
