@@ -15,9 +15,14 @@ from tehl.estimate.scaling import Groups
 from tehl.operators.deformation import choose
 from tehl.operators.film import gap, rigid_motions
 from tehl.operators.load import Load
+from tehl.operators.transfer import refine
 
-MOST_DESCENTS, DRY_CHANGE = 400, 1e-6
-"""Most iterations, and mean change of the pressure over its mean at which they end."""
+MOST_DESCENTS, DRY_CHANGE = 400, 1e-4
+"""Most iterations, and mean change of the pressure over its mean at which they end: a thousandth
+of it is then left, as little as a start and the place of a spike need."""
+STEEP_LINES = 65
+"""Lines up to which the pressure is steep from line to line where these crowd at the ends. On more
+it starts from that of half as many."""
 
 
 @lru_cache(maxsize=8)
@@ -36,7 +41,10 @@ def dry_roller(grid: Grid, groups: Groups) -> tuple[Array, Array]:
     inside = np.zeros(undeformed.shape, bool)
     inside[:, 1:-1] = True
     weight = grid.widths[:, None]
-    p = np.where(inside, shape.dry_pressure(grid.x[None, :], grid.y[:, None]), 0.0)
+    if grid.crowding and grid.ny > STEEP_LINES and grid.can_coarsen():
+        p = refine(dry_roller(grid.coarser(), groups)[0], grid)
+    else:
+        p = np.where(inside, shape.dry_pressure(grid.x[None, :], grid.y[:, None]), 0.0)
     p *= shape.load / load.integral(p)
     film, moved, step = (np.zeros_like(undeformed) for _ in range(3))
     conjugate, before, tilts, known = 0.0, 1.0, np.zeros(0), False

@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
-from tehl.operators.dry import dry_pressure
+from tehl.operators.dry import STEEP_LINES, dry_pressure
 from tehl.operators.transfer import refine, refine_signed
 from tehl.result.solution import Solution
 from tehl.solver.cycle.equations import Equations
@@ -71,10 +71,11 @@ def from_coarser(coarse: Level, fine: Level) -> None:
         The unknowns of the finer one change in place.
     """
     oil, asperity = refine(coarse.film.p, fine.grid), coarse.film.asperity
-    is_steep = fine.grid.is_closed and not fine.grid.crowding
+    is_steep = fine.grid.is_closed and (not fine.grid.crowding or fine.grid.ny <= STEEP_LINES)
     if is_steep and fine.grid.shape[0] > coarse.grid.shape[0]:
         # at the ends of a roller the dry pressure is steep, but not the difference to it; over the
-        # numbers of lines that crowd there it is smooth
+        # numbers of more lines that crowd there it is smooth: this start leaves a fifth to one of
+        # the residual, without the time of the dry pressure
         dry, groups = coarse.film.p.copy(), coarse.equations.groups
         dry -= dry_pressure(coarse.grid, groups)
         rise = refine_signed(dry, fine.grid)
