@@ -1,0 +1,55 @@
+"""Cycles of rollers on fine grids: thick films that thin, and cells of short rollers."""
+
+import pytest
+
+import tehl
+from tehl.contact.options import Domain, Options
+from tehl.estimate.grid import Grid, coarsest_of, long_grids
+from tests.solver.test_roller import roller
+
+THIN = {
+    "viscosity": {"law": "barus", "eta_0": 0.0143, "alpha": 2.33e-8, "gamma": 0.047},
+    "density": {"law": "dowson-higginson", "rho_0": 880.0, "beta": 6.5e-4},
+    "shear": {"law": "eyring", "stress": "2.47 MPa"},
+    "temperature": "80 degC",
+}
+LUNDBERG = {"shape": "lundberg"}
+SHORT = {"shape": "iso-16281", "diameter": "20 mm"}
+
+
+def residuals(problem: tehl.ContactProblem, points: tuple[int, int], smoother: str) -> list[float]:
+    """Return the residuals of the cycles on the finest grid."""
+    options = Options(points=points, wedge_order=3, smoother=smoother)
+    found = tehl.solve(problem, options)
+    return [one.residual for one in found.history if one.points == points]
+
+
+def test_a_thick_film_that_thins_converges_on_fine_grids():
+    """Points of all a line, which conducts little over the half-width, grew 30-fold in a sweep."""
+    thinning = roller(
+        11.9,
+        moes_speed=6.75,
+        radius="60 mm",
+        length="14.4 mm",
+        profile=LUNDBERG,
+        slide_roll_ratio=1.88,
+        surface_2={"material": "silicon-nitride"},
+        lubricant=THIN,
+    )
+    first, *_, last = residuals(thinning, (513, 129), "broad")
+    assert last < 0.1 * first
+
+
+def test_cells_of_a_short_roller_are_never_shorter_than_wide():
+    """On 65 x 257 nodes every sweep doubled the error."""
+    first, *_, last = residuals(roller(140.0, profile=SHORT), (257, 257), "fast")
+    assert last < 0.3 * first
+
+
+@pytest.mark.parametrize("crowding", [0.0, 2.2])
+def test_lines_that_crowd_halve_while_cells_are_long(crowding):
+    ends = Domain.model_construct(x=(-3.0, 1.8), y=(-1.0, 1.0))
+    finest = Grid(nx=513, ny=257, domain=ends, mirror=False, crowding=crowding)
+    grids = long_grids(finest, coarsest_of(finest, 0.09), 12.0)
+    shortest = min(12.0 * one.dy / one.dx for one in grids)
+    assert (shortest >= 1.5) == (crowding > 0.0)
