@@ -41,10 +41,7 @@ def dry_roller(grid: Grid, groups: Groups) -> tuple[Array, Array]:
     inside = np.zeros(undeformed.shape, bool)
     inside[:, 1:-1] = True
     weight = grid.widths[:, None]
-    if grid.crowding and grid.ny > STEEP_LINES and grid.can_coarsen():
-        p = refine(dry_roller(grid.coarser(), groups)[0], grid)
-    else:
-        p = np.where(inside, shape.dry_pressure(grid.x[None, :], grid.y[:, None]), 0.0)
+    p = np.where(inside, _first_pressure(grid, groups), 0.0)
     p *= shape.load / load.integral(p)
     film, moved, step = (np.zeros_like(undeformed) for _ in range(3))
     conjugate, before, tilts, known = 0.0, 1.0, np.zeros(0), False
@@ -75,15 +72,28 @@ def dry_roller(grid: Grid, groups: Groups) -> tuple[Array, Array]:
         known = not (modes.size or missed.any() or descended.min() < 0.0)
         if known:
             film = scale * (film - length * moved)
-        for mode, moment in zip(modes, moments, strict=True):
-            arm = mode - load.integral(mode * p) / shape.load
-            more = (moment - load.integral(mode * p)) / load.integral(arm * mode * p)
-            p *= np.maximum(1.0 + more * arm, 0.0)
+        _take_moments(p, load, modes, moments)
         conjugate, before = 0.0 if missed.any() else 1.0, square
         if float(np.abs(p - last).sum()) < DRY_CHANGE * float(p.sum()):
             break
     p.flags.writeable = tilts.flags.writeable = False
     return p, tilts
+
+
+def _first_pressure(grid: Grid, groups: Groups) -> Array:
+    """Return the pressure of slices, on many lines that crowd that of the next coarser grid."""
+    if grid.crowding and grid.ny > STEEP_LINES and grid.can_coarsen():
+        return refine(dry_roller(grid.coarser(), groups)[0], grid)
+    return groups.shape.dry_pressure(grid.x[None, :], grid.y[:, None])
+
+
+def _take_moments(p: Array, load: Load, modes: Array, moments: Array) -> None:
+    """Change a pressure that carries the load in place so that it has the stated moments."""
+    for mode, moment in zip(modes, moments, strict=True):
+        carried = load.integral(mode * p)
+        arm = mode - carried / load.integral(p)
+        more = (moment - carried) / load.integral(arm * mode * p)
+        p *= np.maximum(1.0 + more * arm, 0.0)
 
 
 def _take_motions(film: Array, part: Array, modes: Array) -> Array:

@@ -227,9 +227,10 @@ def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
         settings = replace(relaxation, threshold=LINE_THRESHOLD * relaxation.threshold)
         if equations.grid.is_closed:
             point = ROLLER_POINT if equations.floor > FLOOR * THIN_FILM else POINT_OF_THIN
+            least = max(LINE_THRESHOLD, CONDUCTING * equations.stencil.cx)
             settings = replace(
                 settings,
-                threshold=max(LINE_THRESHOLD, CONDUCTING * equations.stencil.cx) * relaxation.threshold,
+                threshold=least * relaxation.threshold,
                 point=point * relaxation.point,
                 lines=max(ROLLER_LINES, relaxation.lines),
             )
