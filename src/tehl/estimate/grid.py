@@ -20,8 +20,7 @@ lines are coarser waves alone."""
 SHORT_STRETCH, CROWDED_STRETCH = 0.5, 3.0
 """That length below which a cycle halves lines before columns; the second where lines crowd at the
 ends of a roller, so that cells are never shorter than wide: on 65 x 257 nodes of a short one (12
-widths, M = 142) the flow across couples lines whose systems do not know each other, and each sweep
-doubles the error."""
+widths, M = 142) each sweep doubles the error, as lines solved apart are coupled by flow across."""
 LEAST_LINES, LEAST_CROWDED = 12, 24
 """Fewest stored intervals across a coarsest grid with long cells: with 253 unknowns for the 625 of
 16 intervals, seven contacts of bearings take as many cycles. Where lines crowd at the ends of a
