@@ -65,39 +65,20 @@ class Explanation:
 
     scaled: ScaledProblem
     """The contact with its groups and scales."""
-    options: Options
-    """Its numerics, with the number of nodes to expect if an error is to be reached."""
-    follows: bool
-    """Whether the number of nodes follows from the error to reach."""
-    central_film: float
-    """Central film to expect [m], by the first formula in its range."""
-    formula: str
-    """The authors of that formula."""
-    films: tuple[FilmEstimate, ...]
-    """By each formula."""
-    composite: float
-    """Sq of both surfaces together [m]; zero when no roughness is stated."""
+    asked: Options
+    """Its numerics as the case states them."""
+    expected: Options
+    """The same with the number of nodes on which the error to reach is expected."""
     roughness: Asperities | None
     """Heights of the surfaces in this contact; None where both are smooth."""
-    peclet: tuple[float | None, ...]
-    """``|u_s| a_x / (2 diffusivity)`` of both solids [-]; None where a property is not stated."""
-    sources: tuple[str | None, ...]
-    """Moving source of either surface in a thermal run; None where a property is missing."""
     bodies: BodyEffect | None
     """Effect of bodies that are not at the temperature of the oil; None if they are."""
-    resistances: tuple[float | None, float | None]
-    """Thermal resistances of the bodies whose temperature is computed [K/W]."""
     heat: ExpectedHeat | None
     """Temperature rises to expect; None where the solids state too little."""
-    domain: Domain
-    recommended_domain: Domain
-    """The domain of the solve, stated or recommended, and the one recommended for the load."""
-    expected_shape: tuple[int, int]
-    expected_error: float
-    """Nodes (ny, nx) on which the error to reach is expected."""
-    memory: float
+    resistances: tuple[float | None, float | None]
+    """Thermal resistances of the bodies whose temperature is computed [K/W]."""
     seconds: float
-    """Estimated peak memory [byte] and time [s] of a solve."""
+    """Estimated time of a solve [s]."""
     time: TransientPlan | None
     """Plan of a transient run; None for a steady case."""
     questions: tuple[str, ...]
@@ -110,6 +91,72 @@ class Explanation:
     def _repr_html_(self) -> str:
         """Return the same for notebooks."""
         return f'<pre style="font-family: monospace">{escape(as_text(self))}</pre>'
+
+    @property
+    def options(self) -> Options:
+        """Numerics of the solve, with the nodes to expect if an error is to be reached."""
+        return self.expected if self.follows else settled(self.scaled.problem, self.asked)
+
+    @property
+    def follows(self) -> bool:
+        """Whether the number of nodes follows from the error to reach."""
+        return self.asked.points == "auto"
+
+    @property
+    def central_film(self) -> float:
+        """Central film to expect [m], by the first formula in its range."""
+        return likely_film(self.scaled).central_m
+
+    @property
+    def formula(self) -> str:
+        """The authors of that formula."""
+        return likely_film(self.scaled).formula
+
+    @property
+    def films(self) -> tuple[FilmEstimate, ...]:
+        """The film by each formula."""
+        return film_estimates(self.scaled.groups, self.scaled.scales)
+
+    @property
+    def composite(self) -> float:
+        """Sq of both surfaces together [m]; zero when no roughness is stated."""
+        problem, heights = self.scaled.problem, self.roughness
+        return heights.composite if heights else problem.asperity_rms or problem.rms_roughness
+
+    @property
+    def peclet(self) -> tuple[float | None, ...]:
+        """``|u_s| a_x / (2 diffusivity)`` of both solids [-]; None where a property is missing."""
+        return tuple(None if one is None else abs(one) for one in self.scaled.problem.solid_peclet)
+
+    @property
+    def sources(self) -> tuple[str | None, ...]:
+        """Moving source of either surface in a thermal run; None where a property is missing."""
+        return _sources(self.scaled.problem)
+
+    @property
+    def domain(self) -> Domain:
+        """The domain of the solve, stated or recommended."""
+        return domain_of(self.scaled, self.options)
+
+    @property
+    def recommended_domain(self) -> Domain:
+        """The domain recommended for the load."""
+        return proposed_domain(self.scaled, self.asked)
+
+    @property
+    def expected_shape(self) -> tuple[int, int]:
+        """Nodes (ny, nx) on which the error to reach is expected."""
+        return self.expected.shape
+
+    @property
+    def expected_error(self) -> float:
+        """The error to reach [-]."""
+        return self.expected.target
+
+    @property
+    def memory(self) -> float:
+        """Estimated peak memory of a solve [byte]."""
+        return needed_memory(self.options, self.scaled.problem)
 
     @property
     def seconds_range(self) -> tuple[float, float]:
@@ -193,38 +240,24 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     asked = options or Options()
     warm = expected_bodies(problem)
     scaled = ScaledProblem.of(warm or problem)
-    follows = planned(scaled, asked.model_copy(update={"points": "auto"}))
-    options = follows if asked.points == "auto" else settled(problem, asked)
-    check_supply(scaled, domain_of(scaled, options))
-    likely, (ny, nx) = likely_film(scaled), options.shape
-    film = likely.central_m
-    wanted = proposed_domain(scaled, asked)
-    domain = domain_of(scaled, options)
+    expected = planned(scaled, asked.model_copy(update={"points": "auto"}))
+    options = expected if asked.points == "auto" else settled(problem, asked)
+    domain, (ny, nx) = domain_of(scaled, options), options.shape
+    check_supply(scaled, domain)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
     along, across = units_of(grid, scaled.scales)
     mesh = (grid.dx * along, grid.dy * across)
-    heights, plan = asperities(problem, options, mesh, film), transient_plan(scaled, options, mesh)
-    bodies = body_effect(scaled)
+    heights = asperities(problem, options, mesh, likely_film(scaled).central_m)
+    plan, bodies = transient_plan(scaled, options, mesh), body_effect(scaled)
     heat = expected_heat(scaled, bodies)
     return Explanation(
         scaled=scaled,
-        options=options,
-        follows=asked.points == "auto",
-        central_film=film,
-        formula=likely.formula,
-        films=film_estimates(scaled.groups, scaled.scales),
-        composite=heights.composite if heights else problem.asperity_rms or problem.rms_roughness,
+        asked=asked,
+        expected=expected,
         roughness=heights,
-        peclet=tuple(None if one is None else abs(one) for one in problem.solid_peclet),
-        sources=_sources(problem),
         bodies=bodies,
-        resistances=problem.resistances,
         heat=heat,
-        domain=domain,
-        recommended_domain=wanted,
-        expected_shape=follows.shape,
-        expected_error=follows.target,
-        memory=needed_memory(options, problem),
+        resistances=problem.resistances,
         seconds=expected_seconds(scaled, asked) * (FILMS if problem.computes_bodies else 1),
         time=plan,
         questions=questions(

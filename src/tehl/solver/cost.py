@@ -19,10 +19,13 @@ TIMED = 513
 
 
 class Clock:
-    """Measures the cost from now on, in addition to that of earlier parts of a resumed run."""
+    """Measures the cost from now on, in addition to that of earlier parts of a resumed run.
 
-    def __init__(self) -> None:
-        self.before = NO_COST
+    ``limit`` is the wall time after which this part ends [s].
+    """
+
+    def __init__(self, limit: float = math.inf) -> None:
+        self.before, self.limit = NO_COST, limit
         self._wall, self._cpu = time.perf_counter(), time.process_time()
 
     @property

@@ -99,9 +99,8 @@ class Run:
         transient: Transient,
         monitor: StepMonitor,
     ) -> None:
-        self.clock = Clock()
         stated = "max_time" in options.model_fields_set
-        self.limit = options.max_time if stated else math.inf
+        self.clock = Clock(options.max_time if stated else math.inf)
         self.problem, self.transient = problem, transient
         self.scaled = scaled = ScaledProblem.of(problem)
         smooth = transient.start == "smooth"
@@ -151,7 +150,7 @@ class Run:
         """
         for step in range(len(self.record.rows), self.steps + 1):
             time_now = step * self.seconds
-            if self.clock.seconds > self.limit:
+            if self.clock.seconds > self.clock.limit:
                 return self._time_over(time_now - self.seconds)
             heights = self.heights.at(time_now, self.schedule.places(step))
             try:
@@ -299,7 +298,7 @@ class Run:
             kind="not_converged",
             cause=TIME_OVER,
             message=(
-                f"numerics.max_time = {self.limit:g} s is over at {seconds:.4g} of "
+                f"numerics.max_time = {self.clock.limit:g} s is over at {seconds:.4g} of "
                 f"{self.steps * self.seconds:.4g} s of the run. The steps until then are kept."
             ),
             hint=Hint(
