@@ -184,6 +184,7 @@ MISTAKES = [
     ("axes=1", "", "is a study, not a case: solve it with tehl study"),
     ("points=33", "points is not a known key", "did you mean numerics.points?"),
     ("load=80 N", "load is not a known key", "did you mean contact.load or transient.load?"),
+    ("srr=0.5", "srr is not a known key", "did you mean contact.slide_roll_ratio?"),
     ("contact.points=33", "contact.points is not a known key", "did you mean numerics.points?"),
     ("x" * 100_000 + "=3", "xxx... is not a known key", "known are title"),
     ("contact.a\nb=3", 'contact."a\\nb" is not a known key', "load"),

@@ -201,6 +201,14 @@ def _in_another_table(mistake: _Mistake, word: str) -> str:
         if path.split(".")[-1] == word
         and (path.startswith(own) or (path.startswith(tables) and path.count(".") == 1))
     ]
+    if not paths and own == "\n":
+        paths = [
+            f"{table}.{key}"
+            for table in _MISPLACED
+            for model in ([_CASE[table]] if table in _CASE else models_at(root, (table,))[-1])
+            for key, words in getattr(model, "synonyms", {}).items()
+            if word.lower() in words.split()
+        ]
     is_plausible = len(paths) == 1 or (len(paths) == 2 and all(p.count(".") == 1 for p in paths))
     return f"did you mean {' or '.join(paths)}?" if is_plausible else ""
 
