@@ -36,6 +36,12 @@ def test_main_columns_have_units_and_readable_numbers(table):
     assert "stalled: grid_too_coarse" in page
 
 
+def test_cases_without_a_cause_have_their_status_alone(table):
+    whole = StudyTable(table.iloc[:3].convert_dtypes())
+    assert "<td>converged</td>" in whole._repr_html_()
+    assert "nan" not in whole._repr_html_()
+
+
 def test_a_curve_follows_from_three_converged_cases_on(table):
     assert table._repr_html_().count("data:image/png;base64,") == 1
     assert "data:image" not in table.iloc[:2]._repr_html_()

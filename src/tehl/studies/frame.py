@@ -35,10 +35,12 @@ class StudyTable(pd.DataFrame):
         known, units = _columns(), self.attrs.get("units", {})
         shown = [key for key in known if key in self.columns and self[key].notna().any()]
         rows = self.iloc[:_SHOWN_ROWS]
-        status = rows["status"].str.replace("_", " ")
-        if "cause" in rows:
-            status = status.where(rows["cause"].isna(), status + ": " + rows["cause"])
-        cells = [rows[label] for label in labels] + [status]
+        causes = rows["cause"] if "cause" in rows else [None] * len(rows)
+        outcomes = [
+            status.replace("_", " ") + (f": {cause}" if isinstance(cause, str) else "")
+            for status, cause in zip(rows["status"], causes, strict=True)
+        ]
+        cells = [*(rows[label] for label in labels), pd.Series(outcomes, rows.index)]
         page = pd.concat([*cells, *(known[key][1] * rows[key] for key in shown)], axis=1)
         heads = [_head(label, units.get(label, "1")) for label in labels]
         page.columns = pd.Index([*heads, "status", *(known[key][0] for key in shown)])
