@@ -16,6 +16,7 @@ from tehl.solver.judging.convergence import (
     GridTrace,
     film_converged,
     recedes,
+    touching_converged,
 )
 from tehl.solver.judging.goal import MOST_EXPECTED, comparable
 from tehl.solver.judging.grid_errors import (
@@ -73,6 +74,16 @@ def test_a_share_that_creeps_while_single_nodes_come_and_go_has_its_way_to_go() 
     assert trace.touching.creep(4) == pytest.approx(left, rel=0.3)
     trace.touching.values[-5:] = [0.5, 0.6, 0.5, 0.6, 0.5]
     assert trace.touching.creep(4) == 0.0
+
+
+@pytest.mark.parametrize(("share", "ends"), [(0.4201, False), (0.461, True)])
+def test_a_share_that_oscillates_has_not_converged_where_it_hardly_changes_once(
+    share: float, ends: bool
+) -> None:
+    coarse, fine = GridTrace(), GridTrace()
+    coarse.touching.values = [0.6]
+    fine.touching.values = [0.5, 0.46, share + 0.0001, share]
+    assert touching_converged(fine, coarse) is ends
 
 
 @pytest.mark.parametrize(("coarse", "bar"), [(0.010, 0.35), (0.0, 0.70), (-0.020, 2.0)])

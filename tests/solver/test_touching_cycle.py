@@ -5,6 +5,8 @@ import pytest
 from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import nnls
 
+from benchmarks import any_contacts
+from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Domain, Options
@@ -18,6 +20,7 @@ from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import TOUCHING
 from tehl.solver.cycle.relaxation import ROUGH
 from tehl.solver.cycle.start import from_dry_pressure
+from tehl.solver.cycle.transfers import restrict
 from tehl.solver.judging.convergence import DivergedError
 from tehl.solver.physics.boundary_contact import choose_orders, oil_step
 from tehl.solver.physics.boundary_cycle import TouchingCycle
@@ -96,6 +99,45 @@ def test_the_response_keeps_the_contact_closed(mirror: bool):
     assert answered == pytest.approx(taken, rel=1e-9)
 
 
+@pytest.mark.parametrize("mirror", [False, True])
+def test_the_contact_of_a_coarser_level_stays_closed_as_its_oil_changes(mirror: bool):
+    """By steps of descent, and at once on the coarsest level; the load grows by the answer too."""
+    problem = through_film(moes_contact(100.0, 5.0), 0.5)
+    grid = Grid(nx=65, ny=65, domain=SQUARE, mirror=mirror)
+    options = Options(points=65, edges="zero", domain=SQUARE, deformation="fft")
+    hierarchy = Hierarchy.on(grid, ScaledProblem.of(problem), options, ROUGH)
+    fine, coarse = hierarchy.finest, hierarchy.levels[-2]
+    from_dry_pressure(fine, 0.1)
+    fine.set_state(0.4 * fine.film.p, fine.rigid_approach - 0.8)
+    cycle = TouchingCycle([fine], lambda: None)
+    for _ in range(4):
+        cycle._settle(12)
+    cycle._respond()
+    restrict(fine, coarse)
+    share = contact_of(coarse.share)
+    touching, before = share.touching.copy(), coarse.separation.copy()
+    assert 400 < touching.sum() * (1 + mirror) < 460
+    missing = coarse.missing_load()
+    x, y = coarse.grid.x, coarse.grid.y[:, None]
+    pressed = np.where(touching, 0.0, 0.01 * np.exp(-((x + 1.5) ** 2) - y**2))
+    coarse.film.p[:] += pressed
+    for _ in range(12):
+        coarse.is_stale = True
+        coarse.update()
+    moved, answer = coarse.separation - before, share.answer(coarse)
+    assert (answer[~touching] == 0.0).all()
+    assert moved[touching] == pytest.approx(0.0, abs=1e-3 * moved.max())
+    dense = dense_matrix(coarse.grid.shape, mirror, coarse.equations.influence)
+    exact = (share.yielding(dense) @ pressed.ravel()).reshape(moved.shape)
+    assert exact[touching] == pytest.approx(0.0, abs=1e-12)
+    assert moved == pytest.approx(exact, abs=1e-3 * moved.max())
+    free = (dense @ pressed.ravel()).reshape(moved.shape)
+    beside = ~touching & (np.roll(touching, -1, axis=1) | np.roll(touching, 1, axis=1))
+    assert (exact[beside] < 0.6 * free[beside]).all()  # what a cycle without the answer misses
+    carried = coarse.equations.load.integral(pressed + answer)
+    assert missing - coarse.missing_load() == pytest.approx(carried, rel=0.05)
+
+
 @pytest.mark.parametrize("order", [1, 2])
 def test_an_oil_step_is_that_of_newtons_method_where_surfaces_touch(order: int):
     """A small part of the step takes that part of the residual away, at fixed film."""
@@ -163,3 +205,15 @@ def test_a_solve_to_the_error_of_the_grid_balances_the_oil_to_a_hundredth(groove
         tight.touching.share, abs=0.1 * default.touching.share_error
     )
     assert default.touching.share_error > 0.01
+
+
+def test_oil_before_a_patch_is_corrected_by_coarser_grids():
+    """On them the contact answers to it; else the patch spreads over twice the load, and stalls."""
+    _, _, problem = any_contacts.contact(1, 15, tables_at_once=True)
+    tables = problem.model_dump(exclude_none=True)
+    del tables["thermal"]
+    options = Options(points=65, accuracy="tight", tolerance=1e-7, max_cycles=40)
+    found = solve(ContactProblem.model_validate(tables), options)
+    reports = [one for one in found.history if one.points[0] == 65]
+    assert {one.smoother for one in reports} == {"careful"}
+    assert reports[30].residual < 1e-3 * reports[10].residual

@@ -110,7 +110,9 @@ class CoarsestSolver:
             dry=np.zeros(nodes, np.uint8),
         )
         state = Coarse._make(field.ravel() for field in linearised(level))
-        count = fill_step(state, level.equations.robust, self._system(), work, nx)
+        system = self._system()
+        system = system._replace(influence=level.share.yielding(self.influence))
+        count = fill_step(state, level.equations.robust, system, work, nx)
         with one_thread():
             # a row is a column of LAPACK
             used = count + level.rigid.size

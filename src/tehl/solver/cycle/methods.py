@@ -31,6 +31,7 @@ from tehl.solver.physics.boundary_contact import (
     TouchingNewton,
 )
 from tehl.solver.physics.boundary_cycle import TouchingCycle
+from tehl.solver.physics.solid_shares import contact_of
 
 MOST_CYCLES = 4
 """Most cycles on a grid that only provides the start for the next finer one."""
@@ -192,6 +193,7 @@ class ContactCycles(Cycles):
         # a grid that does not resolve the heights is smoother than stated: nothing touches there
         self.is_smoother = visit.roughness.is_rough and not visit.is_rough
         visit.fine.share.stays = self.is_smoother
+        contact_of(visit.fine.share).answers = visit.strategy.answers
         if not self.is_smoother:
             closing = visit.balanced_below if visit.is_last else 0.0
             self.touching = TouchingCycle(visit.hierarchy.chain(visit.levels), self.cycle, closing)

@@ -99,6 +99,7 @@ def correct(fine: Level, coarse: Level) -> None:
     mirror, now = fine.stencil.mirror, coarse.share.changed(coarse)
     transfer.correct(fine.film.p, now, before, mirror, (part, limit, fine.share.lowest))
     fine.cavity.correct(fine, coarse, before, (part, limit))
+    fine.share.take_answer(fine, part * coarse.share.answer(coarse))
     fine.move(part * (coarse.rigid - rigid))
 
 

@@ -21,7 +21,6 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, cg
 
 from tehl.base.typing import Array
-from tehl.operators.deformation import Flattening
 from tehl.operators.jacobian import neighbours_of
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import one_thread
@@ -80,10 +79,6 @@ class TouchingCycle:
         grid, self.share = self.level.grid, contact_of(self.level.share)
         self.number, self.is_balanced = 0, False
         self.neighbours = neighbours_of(grid, self.level.stencil)
-        self.flattening = Flattening(grid, self.level.equations.groups)
-        lines = np.full(grid.shape, 1.0 + grid.mirror)
-        lines[0] = 1.0
-        self.roots = np.sqrt(lines)  # of the number of lines, with images: K is symmetric by them
         self.oil = LineSmoother(grid, self.level.equations.influence, FIXED_FILM)
         for film in (self.oil.workspace.point, self.oil.workspace.dipole):
             film[:] = 0.0
@@ -201,7 +196,7 @@ class TouchingCycle:
 
         Both ``grid.shape``; ``accuracy`` is the relative residual.
         """
-        roots, shape = np.where(self.share.touching, self.roots, 0.0), film.shape
+        roots, shape = np.where(self.share.touching, np.sqrt(self.share.lines), 0.0), film.shape
         inverse = np.divide(1.0, roots, out=np.zeros(shape), where=roots > 0.0)
         out = np.empty(shape)
 
@@ -218,7 +213,7 @@ class TouchingCycle:
                 (roots * film).ravel(),
                 rtol=accuracy,
                 maxiter=MOST_CONTACT_PRODUCTS,
-                M=operator(self.flattening.deflect),
+                M=operator(self.share.flattening.deflect),
             )
         return np.asarray(inverse * found.reshape(shape))
 

@@ -125,7 +125,8 @@ class OilAlone:
         found = self.response
         if found is None:
             return 0.0
-        pressed = (1.0 - found.lift) * (level.film.p - found.pressure)
+        # on coarser levels the pressure has the answer too, as well as these resolve the contact
+        pressed = (1.0 - found.lift) * (level.film.p - found.pressure) + self.answer(level)
         risen = found.stiffness * (level.rigid_approach - found.approach)
         return self.equations.load.integral(pressed) + risen
 
@@ -133,6 +134,26 @@ class OilAlone:
         """Take the response of a finer level, from the present state on."""
         found = finer.response
         self.response = found and found.injected(level.rigid_approach, level.film.p)
+
+    def answer(self, level: Carried) -> Array | float:
+        """Return the pressure by which the contact of a coarser level has answered to the oil."""
+        del level
+        return 0.0
+
+    def take_answer(self, level: Carried, answer: Array | float) -> None:
+        """Add what the contact of a coarser level has answered to the oil.
+
+        Parameters
+        ----------
+        level : Level
+            Of this share.
+        answer : array of the shape of the coarser grid
+            As `answer` returns it.
+        """
+
+    def yielding(self, influence: Array) -> Array:
+        """Return the film at each node per unit pressure at each node as solids answer, (n, n)."""
+        return influence
 
     def meets(self, level: Carried) -> BoolArray:
         """Return the nodes whose load the contact of the surfaces carries, ``grid.shape``."""
@@ -179,7 +200,8 @@ class Response:
     The contact pressure changes by -c phi with K phi = 1 where the surfaces touch, so that they
     stay together; the film elsewhere by c (1 - K phi), and the load of the contact by -c S. Without
     it oil and contact would both make up for a missing load, and cycles diverge where the contact
-    is the stiffer of both.
+    is the stiffer of both. On coarser levels the contact answers to the oil too, by a pressure that
+    keeps the surfaces together.
     """
 
     lift: Array
