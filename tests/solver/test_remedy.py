@@ -22,6 +22,7 @@ from tehl.solver.judging.diagnosis import error_setting
 from tehl.solver.judging.remedy import working_hint
 from tehl.solver.monitor import SILENT
 from tests.cases import ball_tables
+from tests.solver.test_roller import roller
 from tests.solver.test_status import failure, moes
 
 
@@ -167,6 +168,21 @@ def test_no_hint_is_tried_after_the_time_of_the_solve_is_over():
 
     working_hint(failed, fails, SILENT, time.perf_counter() - 10.0)
     assert max(limits) <= 1.0  # the least time that trials get
+
+
+def test_what_fails_for_a_larger_error_is_not_tried_for_a_smaller_one_on_the_same_grid():
+    """A roller is planned on 257 nodes for any error: three trials failed alike, a minute each."""
+    failed = replace(failure(100.0, points=33).result, problem=roller(50.0), options=Options())
+    failed = failed.but(cost=replace(failed.cost, wall_seconds=20.0))
+    tried: list[tuple[float, float]] = []
+
+    def fails(_, options: Options):
+        tried.append((options.target, options.max_time))
+        raise InputError("no memory")
+
+    working_hint(failed, fails, SILENT, math.inf)
+    assert [error for error, _ in tried] == [0.5]
+    assert tried[0][1] == pytest.approx(20.0, abs=0.1)  # no longer than the failed solve
 
 
 def test_a_trial_ends_at_the_cycle_after_the_time_that_is_left(monkeypatch):

@@ -53,9 +53,9 @@ def solved_on_other_nodes(
     part = 1.0 if scaled.groups.ellipticity >= 1.0 else min((lines - 1) / (nodes - 1), 1.0)
     nodes = nodes if part < 1.0 else max(lines, nodes)
     for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHER_GRIDS]:
-        left = end - time.perf_counter()
-        if left <= 0.0:
+        if end <= time.perf_counter():
             break
+        left = _time_of_trial(failed, end)
         points = (more, 1 if failed.problem.contact.is_line else round(part * (more - 1)) + 1)
         monitor.message(f"trying {grid_size(points)}")
         options = failed.options.on_points(*points).model_copy(update={"max_time": left})
@@ -92,13 +92,20 @@ def working_hint(
     end = max(min(enough, end), now + LEAST_SECONDS)
     least = math.inf if reached is None else reached[1]
     for trials in (_default_domain(failed), _errors(failed, least), _other_physics(failed)):
+        hopeless: set[tuple[int, int]] = set()
         for settings, problem, options in trials:
-            left = end - time.perf_counter()
-            if left <= 0.0:
+            if end <= time.perf_counter():
                 break
+            # what fails on a grid for a larger error fails there for a smaller one
+            grid = planned(ScaledProblem.of(problem), options).shape
+            if grid in hopeless:
+                continue
             monitor.message(f"trying a hint: {settings_text(settings)}")
-            limited = options.model_copy(update={"max_time": min(left, options.max_time)})
-            found = _tried(settings, partial(solve, problem, limited)) or found
+            left = min(_time_of_trial(failed, end), options.max_time)
+            limited = options.model_copy(update={"max_time": left})
+            works = _tried(settings, partial(solve, problem, limited))
+            hopeless |= set() if works else {grid}
+            found = works or found
         if found is not None:
             return found
     if reached is not None:
@@ -108,6 +115,12 @@ def working_hint(
         return Hint("The time to try other settings was over: more numerics.max_time tries more.")
     other = "; lower or longer asperities may" if failed.problem.is_rough else ""
     return Hint(f"No setting is known with which this contact converges{other}.")
+
+
+def _time_of_trial(failed: Solution, end: float) -> float:
+    """Return the time for one trial [s]: that of the failed solve, which tried all strategies."""
+    left = end - time.perf_counter()
+    return min(left, max(failed.cost.wall_seconds, LEAST_SECONDS))
 
 
 def _tried(settings: Settings, solve: Callable[[], Solution]) -> Hint | None:
