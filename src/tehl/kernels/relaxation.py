@@ -44,6 +44,7 @@ Span = tuple[int, int]
 
 PASSES = 6  # of the policy iteration, before clipping
 FREE, CAVITATED, FROZEN, WAS_CAVITATED = 0.0, 1.0, 2.0, 3.0  # states of a node
+FAR_WEDGE = 0.7  # part of the wedge of a wave of the pressure of lines, 1, that near nodes lack
 NEGLIGIBLE_PART = 1e-2  # part of a change of the pressure that asperities take by the film it moves
 EMPTY_MARGIN_NODES = 3  # empty nodes on both sides of a line
 CHUNK = 32  # nodes copied at a time, so that they stay in the first cache
@@ -81,7 +82,8 @@ class LineRelaxation(NamedTuple):
     (2, n) is the wedge along y of the film of a point and of a dipole, over rho and the drift,
     where the surfaces spin; lines of negative speed are then solved against x, in their direction.
     ``apart`` is 1 on a roller whose lines are far apart: then it matters to a node what flows to
-    the lines beside, not how well they conduct or if they are cavitated.
+    the lines beside, not how well they conduct or if they are cavitated, and points have the wedge
+    of the deflection from afar, which the systems lack, on their diagonal (docs/theory/rollers.md).
     """
 
     xi: float
@@ -212,6 +214,8 @@ def _load_node(
     across = half_n * both(stencil, eps_y[j, i], eps_y[north, i])
     across += half_s * both(stencil, eps_y[j, i], eps_y[south, i])
     cells[at, ACROSS, lane] = across + relaxation.stiffness[j, i]
+    if relaxation.apart and not relaxation.kind[j, i]:
+        cells[at, ACROSS, lane] += FAR_WEDGE
     cells[at, MASS_P, lane] = film.drho[j, i] * film.h[j, i]
     cells[at, RHO, lane] = film.rho[j, i]
     cells[at, DIPOLE, lane] = relaxation.kind[j, i]

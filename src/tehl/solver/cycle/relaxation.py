@@ -78,13 +78,6 @@ share grows with a factor of 0.8 at M = 150, and with 0.7 at M = 300 (film 0.004
 held, the load of crowned ones alternates from cycle to cycle. 0.2 to 0.35 of the residual is left
 for a length of 8 to 140 widths, M = 5 to 150, crowned, logarithmic and lundberg profiles."""
 
-CONDUCTING = 5e-4
-"""Least conductance of points on rollers, over the threshold of other contacts [-]. What opposes a
-change of all points of a line, whose system has the deflection of near nodes alone, is conductance
-over the square of the half-width, not of a mesh width: by the latter fine grids have long runs of
-points in thick films that thin, and one sweep diverges (M = 12, L = 7 on 513 x 257 nodes). With
-1e-3 the cycles of a lundberg profile stall at 3e-7."""
-
 
 def is_long(stencil: Stencil, *, touches: bool = False) -> bool:
     """Whether lines of a grid conduct so little across that each is a line contact nearby.
@@ -227,13 +220,8 @@ def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
         settings = replace(relaxation, threshold=LINE_THRESHOLD * relaxation.threshold)
         if equations.grid.is_closed:
             point = ROLLER_POINT if equations.floor > FLOOR * THIN_FILM else POINT_OF_THIN
-            least = max(LINE_THRESHOLD, CONDUCTING * equations.stencil.cx)
-            settings = replace(
-                settings,
-                threshold=least * relaxation.threshold,
-                point=point * relaxation.point,
-                lines=max(ROLLER_LINES, relaxation.lines),
-            )
+            lines = max(ROLLER_LINES, relaxation.lines)
+            settings = replace(settings, point=point * relaxation.point, lines=lines)
         else:
             point, dipole = LINE_POINT * relaxation.point, LINE_DIPOLE * relaxation.dipole
             settings = replace(settings, point=point, dipole=dipole)
