@@ -136,19 +136,24 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     if error > LARGEST_FILM_BAR:
         return too_coarse(points, run.hierarchy.scaled, error)
     if not errors.minimum_has_limit:
-        return _thinnest_at_end(level)
+        return _thinnest_at_end(level, is_pressed=not errors.pressure_has_limit)
     return CONVERGED if errors.pressure_has_limit else _pressed_at_end(level)
 
 
-def _thinnest_at_end(level: Level) -> Status:
-    """Return ``converged`` with a warning: the minimum lies at a sharp end under pressure."""
+def _thinnest_at_end(level: Level, *, is_pressed: bool) -> Status:
+    """Return ``converged`` with a warning: the minimum lies at a sharp end under pressure.
+
+    ``is_pressed``: the largest pressure lies at an end too.
+    """
     smallest, _, y = thinnest(level)
+    pressed = f" Nor has the largest pressure, {level.film.p.max():.3g} p_h." if is_pressed else ""
     return Status(
         kind="converged",
+        cause="minimum_film_and_largest_pressure_open" if is_pressed else None,
         message=(
             f"The film is thinnest (H = {smallest:.3g}) at the sharp end Y = {y:.3g} of the roller "
             "under a pressure that grows with each finer grid: the minimum film has no limit, and "
-            "no error bar."
+            f"no error bar.{pressed}"
         ),
         hint=RELIEVE,
     )
