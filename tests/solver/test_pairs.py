@@ -17,6 +17,7 @@ from tehl.operators.energy import FilmState
 from tehl.post import boundary_contact
 from tehl.post.bodies import heat_into_bodies
 from tehl.post.boundary_contact import touching_nodes
+from tehl.post.roughness import rough_film
 from tehl.report.page import report_text
 
 TIGHT = Options(points=65, accuracy="tight")
@@ -212,3 +213,16 @@ def test_the_text_states_the_friction_of_film_contact_and_asperities_together(mo
     assert f"friction         {total:.3g}: film" in text
     assert text.count("  friction    ") == 1
     assert "friction" in report_text(found, dpi=30)
+    assert rough_film(found).share == pytest.approx(shared.share + apart.share)
+
+
+def test_stated_roughness_decides_the_lubrication_beside_a_contact_of_smooth_surfaces():
+    """It is not computed: that nothing touches on the grid does not make the film a full one."""
+    bare = contact("boundary").model_dump(exclude_none=True)
+    bare["surface_1"]["rms_roughness"] = 0.5e-6
+    found = solve(ContactProblem.model_validate(bare), Options(points=49))
+    rough = rough_film(found)
+    assert found.touching.share == 0.0
+    assert rough.share is None
+    assert rough.lambda_central < 1.0
+    assert rough.lubrication == "boundary"

@@ -140,11 +140,16 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
 
 
 def _solid_share(result: Solution) -> float | None:
-    """Return the part of the load that asperities carry [-]; None where it is not known."""
+    """Return the part of the load that asperities carry [-]; None where it is not known.
+
+    Roughness that is stated, but not computed, may touch where patches on the grid do not.
+    """
     averaged, patches = load_sharing(result), touching(result)
-    if patches is not None:
-        return patches.share if patches.is_share_known else None
-    return None if averaged is None else averaged.share
+    if patches is None:
+        return None if averaged is None else averaged.share
+    if not patches.is_share_known or (averaged is None and result.heights is None):
+        return None
+    return patches.share + (0.0 if averaged is None else averaged.share)
 
 
 def ripples(x: Array, y: Array, film: Array, pressure: Array) -> tuple[float, float]:
