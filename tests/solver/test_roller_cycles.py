@@ -1,10 +1,12 @@
-"""Cycles of rollers on fine grids: thick films that thin, and cells of short rollers."""
+"""Cycles of rollers on fine grids, and their nodes: thick films that thin, short and rough ones."""
 
 import pytest
 
 import tehl
 from tehl.contact.options import Domain, Options
 from tehl.estimate.grid import Grid, coarsest_of, long_grids
+from tehl.estimate.nodes import planned
+from tehl.estimate.scaling import ScaledProblem
 from tests.solver.test_roller import roller
 
 THIN = {
@@ -52,6 +54,16 @@ def test_cells_of_a_short_roller_are_never_shorter_than_wide():
     """On 65 x 257 nodes every sweep doubled the error."""
     first, *_, last = residuals(roller(140.0, profile=SHORT), (257, 257), "fast")
     assert last < 0.3 * first
+
+
+def test_a_rough_roller_has_the_lines_of_its_waves_and_no_more_nodes_along_x():
+    """It had 1025 x 513 nodes, too few along y: shorter bumps were rejected as aliased."""
+    bump = {"type": "bump", "amplitude": "10 nm", "radius": "60 um"}
+    long = {"length": "10 mm", "surface_2": {"material": "steel", "roughness": bump}}
+    scaled = ScaledProblem.of(roller(50.0, profile=SHORT, **long))
+    lines, nodes = planned(scaled, Options()).shape
+    assert nodes <= 513
+    assert lines >= 1025
 
 
 @pytest.mark.parametrize("crowding", [0.0, 2.2])

@@ -155,6 +155,13 @@ def _lines_of_piece(nodes: int, least: float) -> int:
     return next((lines for lines in found if lines > least), 4 * nodes - 3)
 
 
+def _lines_of_roller(nodes: int, least: float) -> int:
+    """Return the lines of a roller with ends: half as many as nodes, or more for its waves."""
+    fewest = max((nodes - 1) // 2, LEAST_ROWS)
+    found = (times * fewest + 1 for times in (1, 2, 4))
+    return next((lines for lines in found if lines > least), 8 * fewest + 1)
+
+
 def _left_to_the_mesh(groups: Groups, domain: Domain, error: float) -> float:
     """Return the error bar of the film that the edges of the domain leave to the mesh."""
     return max(error - far_field_error(groups, domain), 0.5 * error) / EXPECTED_BAR_MARGIN
@@ -171,7 +178,7 @@ def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> tuple[float, float
     across = (domain.y[1] - domain.y[0]) * scales.half_width_y / min(wave[1] for wave in waves)
     if problem.contact.is_line:
         return min(WAVE_NODES * along, LINE_ROUGH_NODES), 0.0
-    if scaled.groups.shape.goes_on:
+    if scaled.groups.shape.as_line:
         return min(WAVE_NODES * along, ROUGH_NODES), min(WAVE_NODES * across, ROUGH_NODES)
     both = min(WAVE_NODES * max(along, across), ROUGH_NODES)
     return both, both
@@ -200,7 +207,7 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
         nodes = _roller_points(scaled.entering, domain, options, least)
         if scaled.groups.shape.goes_on:
             return options.on_points(nodes, _lines_of_piece(nodes, lines))
-        return options.on_points(nodes, max((nodes - 1) // 2, LEAST_ROWS) + 1)
+        return options.on_points(nodes, _lines_of_roller(nodes, lines))
     nodes = expected_points(
         scaled.entering,
         domain,
