@@ -156,7 +156,7 @@ def _lines_of_piece(nodes: int, least: float) -> int:
 
 
 def _lines_of_roller(nodes: int, least: float) -> int:
-    """Return the lines of a roller with ends: half as many as nodes, or more for its waves."""
+    """Return the lines of a roller with ends: half the nodes, or more for its waves."""
     fewest = max((nodes - 1) // 2, LEAST_ROWS)
     found = (times * fewest + 1 for times in (1, 2, 4))
     return next((lines for lines in found if lines > least), 8 * fewest + 1)
