@@ -23,6 +23,7 @@ from tehl.solver.judging.grid_errors import (
     COMBINED,
     LEAST_CENTRAL,
     LEAST_MINIMUM,
+    PART_AT_SIDES,
     THIRD_CHANGE,
     THIRD_PART,
     UNEVEN,
@@ -150,6 +151,26 @@ def test_a_film_of_third_order_has_little_more_than_the_bar_to_expect(
     estimate = error_estimate(traces, 3, least=0.006, most=MOST_EXPECTED * 0.006)
     assert estimate.discretisation_central == pytest.approx(bar)
     assert estimate.discretisation_minimum == pytest.approx(bar)
+
+
+@pytest.mark.parametrize(
+    ("growth", "bar"),
+    [(0.05, PART_AT_SIDES * 0.05), (0.15, THIRD_PART * 0.15), (-0.06, THIRD_PART * 0.06)],
+)
+def test_a_film_that_grows_at_the_sides_is_extrapolated_from_two_grids(
+    growth: float, bar: float
+) -> None:
+    """A rig (M = 14,420): its minimum grows by 5.4 % to 641 x 1281 nodes, and by 1.8 % then."""
+    traces = [GridTrace(), GridTrace()]
+    for trace, film in zip(traces, (1.0 - growth, 1.0), strict=True):
+        trace.note(film, film)
+        trace.note(film, film)
+        trace.measured = {"film_central": film, "film_minimum": film, "pressure_max": 1.0}
+        trace.measured |= {"spike": 0.5, "excess": 0.01}
+        trace.outputs = Mock()
+    found = error_estimate(traces, 3, extrapolate=True, at_sides=True)
+    assert found.extrapolated == (0.0 < growth < 0.13)
+    assert found.discretisation_minimum == pytest.approx(bar)
 
 
 def factors(*values: float) -> Factors:

@@ -22,6 +22,7 @@ from tehl.estimate.third_order import third_order_bar
 from tehl.io.templates import template_text
 from tehl.result.bars import ErrorEstimate
 from tehl.solver.cycle.iteration import GridIteration
+from tehl.solver.judging.film_summary import film_summary
 from tehl.solver.judging.goal import (
     FLOODED_PART,
     MOST_OTHERS,
@@ -30,6 +31,7 @@ from tehl.solver.judging.goal import (
     SPARE_PART,
     Goal,
 )
+from tehl.solver.judging.measures import SAMPLED, side_reach
 from tests.reference import heated_contact, moes_contact
 from tests.solver.rough import wavy
 
@@ -364,6 +366,20 @@ def with_minimum_at(y: float, grid: Grid) -> Mock:
     """Return a level whose film is thinnest at a distance from the centre line."""
     film = np.abs(grid.y - y)[:, None] + np.ones(grid.nx)
     return Mock(grid=grid, film=Mock(h=film))
+
+
+@pytest.mark.parametrize("place", [0.985, 0.99, 0.9925, 0.995])
+def test_a_lobe_that_lines_miss_is_within_reach_of_the_film_that_was_found(place: float) -> None:
+    """Convex and steep beyond the edge, as of outer rings; or the film is thinnest elsewhere."""
+    grid = finest_grid(ScaledProblem.of(moes_contact(400.0, 1.0)), Options().on_points(193, 193))
+    aside = grid.y - place
+    lobe = 0.05 + 0.5 * np.sqrt(aside**2 + 1e-5) + 2.0 * np.maximum(aside, 0.0)
+    for elsewhere in (1.0, 0.0517):
+        exit_film = elsewhere + (grid.x - 1.0) ** 2 + grid.y[:, None] ** 2
+        film = np.minimum(lobe[:, None] + grid.x**2, exit_film)
+        level = Mock(grid=grid, film=Mock(h=film))
+        found, true = film_summary(grid, film).minimum, min(0.05 + 0.5 * 1e-5**0.5, elsewhere)
+        assert (1.0 - side_reach(level) / SAMPLED) * found < true < 1.04 * found
 
 
 def test_a_flooded_film_to_which_a_supply_is_stated_has_the_goal_of_its_centre() -> None:

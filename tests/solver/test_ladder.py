@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from benchmarks import machines
 from tehl.api.problem import case_from_tables
 from tehl.contact.heat import Thermal
 from tehl.contact.options import Options
@@ -227,6 +228,17 @@ def test_a_line_stays_one_row_with_a_wedge_of_another_order(monkeypatch):
     monkeypatch.setattr(steady, "ladder", lambda *_, **__: second)
     found = steady.solve(line(20.0, 10.0), Options(points=129, extrapolate=True))
     assert found.scaled.film.shape == (1, 129)
+
+
+def test_scarce_oil_on_few_lines_is_tried_on_more_before_a_wedge_of_second_order() -> None:
+    """A heated outer ring whose film does not rest on a quarter of the lines (M = 4700)."""
+    case = machines.contact(17, 49)[2]
+    found = steady.solve(case, Options())
+    few, many = (max(r.points[1] for r in rows) for rows in (found.history[:9], found.history))
+    ny, nx = found.scaled.film.shape
+    assert (few < nx // 3, many) == (True, ny)
+    assert ny == nx
+    assert found.errors.minimum < 0.01
 
 
 def test_a_film_too_thin_for_coarse_grids_converges_by_small_steps_of_relaxation() -> None:

@@ -2,7 +2,7 @@
 
 import platform
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cache, partial
@@ -105,20 +105,18 @@ class Climb:
         plan : Options
             With the nodes of the finest grid.
         rungs : tuple of Strategy
-            Those with another wedge order have as many lines as columns, but of wide contacts.
+            Fastest first.
         """
         best: Attempt | None = None
         solved: tuple[Solved, ...] = ()
-        for number, strategy in enumerate(rungs):
+        steps = tuple(self._steps(plan, rungs))
+        for number, (grid, strategy) in enumerate(steps):
             if number:
                 self.monitor.message(f"falling back to {strategy.description}")
-            if strategy.wedge_order is not None and strategy.wedge_order != plan.order:
-                plan = plan.model_copy(update={"wedge_order": strategy.wedge_order})
-                lines, nodes = plan.shape
-                lines = nodes if lines > 1 and self.scaled.groups.ellipticity >= 1.0 else lines
-                plan, solved = self.goal.fitting(plan.on_points(nodes, lines)), ()
+            if grid is not plan:
+                plan, solved = grid, ()
             # Newton's method is expensive: the cycles before it are tried to the end
-            force = all(one.newton for one in rungs[number + 1 :])
+            force = all(one.newton for _, one in steps[number + 1 :])
             attempt = self._attempt(plan, strategy, solved, force=force)
             best = _better(best, attempt)
             while attempt.run.wanted is not None and not self.goal.is_over:
@@ -133,6 +131,26 @@ class Climb:
             del attempt
         assert best is not None
         return best
+
+    def _steps(
+        self, plan: Options, rungs: tuple[Strategy, ...]
+    ) -> Iterator[tuple[Options, Strategy]]:
+        """Yield the strategies, each with its grid.
+
+        Those with another wedge order than that of ``plan`` have as many lines as columns, but of
+        wide contacts. Where that is more than planned, the first ones are tried so before: with few
+        lines the edge of scarce oil may not rest.
+        """
+        own = tuple(one for one in rungs if one.wedge_order in (None, plan.order))
+        yield from ((plan, one) for one in own)
+        lines, nodes = plan.shape
+        if lines > 1 and self.scaled.groups.ellipticity >= 1.0 and len(own) < len(rungs):
+            plan = self.goal.fitting(plan.on_points(nodes, nodes))
+            yield from ((plan, one) for one in own if lines < nodes)
+        for one in rungs[len(own) :]:
+            if one.wedge_order != plan.order:
+                plan = plan.model_copy(update={"wedge_order": one.wedge_order})
+            yield plan, one
 
     def _attempt(
         self,
