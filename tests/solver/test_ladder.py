@@ -241,6 +241,12 @@ def test_scarce_oil_on_few_lines_is_tried_on_more_before_a_wedge_of_second_order
     assert found.errors.minimum < 0.01
 
 
+def test_cycles_that_lead_away_do_not_blame_the_grid() -> None:
+    """A cam with a thick film (M = 245, L = 14): that of the first strategy wanders."""
+    found = steady.solve(machines.contact(17, 30)[2], Options())
+    assert found.errors.film() < 0.01
+
+
 def test_a_film_too_thin_for_coarse_grids_converges_by_small_steps_of_relaxation() -> None:
     problem = moes_contact(120_000.0, 3.0, radius_ratio=16.0)
     scaled, options = ScaledProblem.of(problem), OPTIONS.on_points(257, 129)
