@@ -26,9 +26,9 @@ LOADED_END = 0.1
 """Largest pressure at the end of a roller, in Hertz pressures, beyond which the end is loaded."""
 SIDE_FROM = 0.5
 """Distance from the centre line beyond which the film is thinnest at a side, in half-widths."""
-SAMPLED = 0.27
+SAMPLED = 0.26
 """Error of the minimum at a side lobe between two lines, over the range between it and the least
-value of a convex film: 0.26 and 0.29 of 10 % on 385 lines of two outer rings (M = 44,000)."""
+value of a convex film: 0.24 and 0.25 of 10 % on 385 lines of two outer rings (M = 44,000)."""
 Part = Literal["x", "y", "z"]
 SPIKE_FROM = 0.5
 """X downstream of which the pressure spike is searched, in Hertz half-widths."""
