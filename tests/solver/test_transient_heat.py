@@ -55,16 +55,20 @@ def breathing(slide: float) -> ContactProblem:
 
 
 @pytest.mark.parametrize(
-    "slide",
-    [pytest.param(0.5, marks=pytest.mark.slow, id="slower"), pytest.param(-0.5, id="faster")],
+    ("slide", "points"),
+    [
+        pytest.param(0.5, 129, marks=pytest.mark.slow, id="slower"),
+        pytest.param(-0.5, 97, id="faster"),
+    ],
 )
-def test_the_heated_film_conserves_mass(slide):
+def test_the_heated_film_conserves_mass(slide, points):
     """On the line y = 0 in the contact, by central differences, which the solver does not use.
 
-    The film stores rho_e H and carries rho* H; exchanging them would be wrong by an eighth.
+    The film stores rho_e H and carries rho* H; exchanging them would be wrong by an eighth. On 97
+    nodes the differences miss 0.035 of a film that is stiff on the slow side.
     """
     problem = breathing(slide)
-    run = Run(problem, Options(points=97, domain=DOMAIN), problem.transient, SILENT)
+    run = Run(problem, Options(points=points, domain=DOMAIN), problem.transient, SILENT)
     carried, stored, pressed = [], [], []
 
     def note(_):
@@ -80,7 +84,7 @@ def test_the_heated_film_conserves_mass(slide):
     opening, wrong = (
         (mass[2:] - mass[:-2]) / (2.0 * run.schedule.step) for mass in (there, moving)
     )
-    inside = (slice(18, None), np.abs(run.level.grid.x) < 0.5)
+    inside = (slice(3 * (points - 1) // 16, None), np.abs(run.level.grid.x) < 0.5)
     missed, mistaken, scale = (
         np.sqrt(np.mean(one[inside] ** 2)) for one in (opening + along, wrong + along, opening)
     )
