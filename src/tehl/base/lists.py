@@ -108,8 +108,8 @@ def _csv(path: Path) -> Iterator[tuple[int, list[str]]]:
     file.seek(0)
     for line in reader:
         cells = [cell.strip() for cell in line]
-        is_decimal = reader.dialect.delimiter == ","
-        yield reader.line_num, cells if is_decimal else [_pointed(cell) for cell in cells]
+        by_commas = reader.dialect.delimiter == ","
+        yield reader.line_num, cells if by_commas else [_pointed(cell) for cell in cells]
 
 
 def _sheet(path: Path) -> Iterator[tuple[int, list[Any]]]:
