@@ -335,7 +335,7 @@ class Goal:
             return None
         lines = self.more_lines(level, errors)
         found = self._between(level, errors) if lines is None else (level.grid.nx, lines)
-        if found is None or self._needed(found) > memory_limit(self.options):
+        if found is None or self._needed(found) > self._left(level):
             return None
         self._others += 1
         return found
@@ -365,8 +365,12 @@ class Goal:
         found = next((points for points in grids if points[0] > least), None)
         if found or self.may_refine(level, errors):
             return found
-        fits = [points for points in grids if self._needed(points) <= memory_limit(self.options)]
+        fits = [points for points in grids if self._needed(points) <= self._left(level)]
         return fits[-1] if fits else None
+
+    def _left(self, level: Level) -> float:
+        """Return the memory beside the grids up to a level, kept until others end [byte]."""
+        return memory_limit(self.options) - self._needed(level.grid.points)
 
     def _needed(self, points: tuple[int, int]) -> float:
         """Return the memory that a grid of nodes (nx, ny) needs [byte]."""
