@@ -311,7 +311,8 @@ class Goal:
         if side_reach(level) < bar:  # or else lines alone decide
             if not is_thinnest_at_side(level) or bar < LINES_PART * errors.discretisation_central:
                 return None
-            if side_bar(self.scaled, grid.domain, grid.ny) < 0.2 * target:
+            is_flooded = self.scaled.problem.supply is None  # of scarce oil no side bar is known
+            if is_flooded and side_bar(self.scaled, grid.domain, grid.ny) < 0.2 * target:
                 return None
         least = (grid.ny - 1) * math.sqrt(BETWEEN_MARGIN * bar / left)
         enough = (n for n in FAVOURED if n > least and n > grid.ny)
