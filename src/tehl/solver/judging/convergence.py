@@ -103,12 +103,13 @@ class Trace:
     values: list[float] = field(default_factory=list)
     least_rate: float = LEAST_CONVERGENCE_RATE
     second_rate: float = 0.0
+    alternates: bool = False
 
     def iteration_error(self) -> float:
         """Estimate the change by all further cycles: d q / (1 - q), last change d, rate q.
 
         Changes of one sign add up: q may be as near to one as they show. Those of alternating signs
-        nearly cancel.
+        nearly cancel. Where large and small changes alternate, d is the larger of the last two.
         """
         if len(self.values) < 2:
             return float("inf")
@@ -119,6 +120,7 @@ class Trace:
             largest = LARGEST_CONVERGENCE_RATE if last * before > 0.0 else LARGEST_ALTERNATING
             least = max(self.least_rate, self.second_rate if len(self.values) == 3 else 0.0)
             rate = min(max(abs(last / before) if before else 0.0, least), largest)
+            last = max(abs(last), abs(before)) if self.alternates else last
         return abs(last) * rate / (1.0 - rate)
 
     def creep(self, cycles: int) -> float:
@@ -140,6 +142,8 @@ class GridTrace:
     ``measured`` has further values after the last cycle (`tehl.solver.judging.measures`).
     ``damping`` is the damping factor of heat and thinning between rough surfaces, 1 is undamped: no
     convergence rate is below 1 - damping, or below ``rate``, or after two cycles ``second_rate``.
+    With a ``rate``, that of small steps, large and small changes alternate: the minimum of an outer
+    ring (M = 21,000), 0.57 % from its limit, changed by 0.44 and then by 0.12 %.
     ``negligible`` is the relative iteration error of the film that is always accepted. Without a
     coarser film to compare, a mean change of ``steady`` is accepted: where surfaces touch, single
     nodes change by more, and ``largest_change`` is that of the mean. A grid on which the iteration
@@ -172,7 +176,7 @@ class GridTrace:
         self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / (1.0 - rate)))
         for trace in (self.central, self.minimum, self.rise, self.touching):
             trace.least_rate = max(LEAST_CONVERGENCE_RATE, rate)
-            trace.second_rate = self.second_rate
+            trace.second_rate, trace.alternates = self.second_rate, self.rate > 0.0
 
     def note(self, central: float, minimum: float) -> None:
         """Append the film before the first cycle.
