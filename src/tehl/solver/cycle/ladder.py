@@ -152,7 +152,7 @@ THIRD_ORDER_STRATEGIES = 2
 COMBINED_CYCLES = 3
 """Earlier cycles combined where nodes change by small steps, or heat and thinning by a part: 8
 replace 13 on the finest grid of thinning bearings with M = 8,000, 12 replace 21 of an isothermal
-one with M = 109,000. Between asperities it takes more cycles; with a wedge of second order, the
+one with M = 109,000, if the last change alone ends them; 14 for 18 if the larger of two does. Between asperities it takes more cycles; with a wedge of second order, the
 last resort, steep spikes (L = 29) diverge."""
 COMBINED_LOAD = 1e3
 """Moes load M of an isothermal contact from which they are: the first changes of a thick film (M =
