@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -79,15 +80,18 @@ def _line(row: Listed, columns: Sequence[Column], found: Row | None) -> dict[str
     }
     if found is not None and found.converged:
         stated = stated_in(columns, row.cells)
-        line |= {
-            name: value
-            for name, value in values_of(found.summary).items()
-            if column_of(name.removeprefix("± ")).key not in stated
-        }
+        values = values_of(found.summary)
+        line |= {name: value for name, value in values.items() if _key_of(name) not in stated}
         line["regime"] = found.summary.get("roughness.lubrication")
     line["status"] = "wrong row" if row.case is None else found.status if found else "open"
     line["obtained"] = row.message if row.case is None else _obtained(found)
     return line
+
+
+@cache
+def _key_of(name: str) -> str | None:
+    """Return the key of the case that the heading of an answer, or of its bar, states."""
+    return column_of(name.removeprefix("± ")).key
 
 
 def _obtained(row: Row | None) -> str:

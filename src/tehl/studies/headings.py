@@ -4,6 +4,7 @@ import difflib
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 from tehl.api.problem import ContactProblem
@@ -133,8 +134,9 @@ def _key(name: str, others: Mapping[str, str]) -> str | None:
     return ends[0] if len(ends) == 1 else None
 
 
-def _paths() -> list[str]:
-    return [*key_paths(ContactProblem), *key_paths(Options, "numerics.")]
+@cache
+def _paths() -> tuple[str, ...]:
+    return (*key_paths(ContactProblem), *key_paths(Options, "numerics."))
 
 
 def check_columns(columns: Sequence[Column], lines: Sequence[Sequence[Any]]) -> None:
