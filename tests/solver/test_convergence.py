@@ -179,9 +179,26 @@ def test_a_film_that_grows_at_the_sides_is_extrapolated_from_two_grids(
         trace.measured = {"film_central": film, "film_minimum": film, "pressure_max": 1.0}
         trace.measured |= {"spike": 0.5, "excess": 0.01}
         trace.outputs = Mock()
-    found = error_estimate(traces, 3, extrapolate=True, at_sides=True)
+    found = error_estimate(traces, 3, extrapolate=True, thinnest="sides")
     assert found.extrapolated == (0.0 < growth < GROWTH_AT_SIDES)
     assert found.discretisation_minimum == pytest.approx(bar)
+
+
+def test_a_minimum_at_the_exit_is_not_extrapolated_by_an_order_shown_by_chance() -> None:
+    """An outer ring (M = 17,100): 7.665 on 321 x 321 nodes, 7.653 on 641 x 641."""
+    traces = [GridTrace(), GridTrace(), GridTrace()]
+    for trace, film in zip(traces, (6.637, 7.454, 7.665), strict=True):
+        trace.note(film, film)
+        trace.note(film, film)
+        trace.measured = {"film_central": film, "film_minimum": film, "pressure_max": 1.0}
+        trace.measured |= {"spike": 0.5, "excess": 0.01}
+        trace.outputs = Mock()
+    off = 7.665 + (7.665 - 7.454) / 3.0 - 7.653  # of the extrapolated film
+    assert extrapolated_bars(traces, 3, 0.005)[COMBINED[1]] < off / 7.653
+    most = MOST_EXPECTED * 0.005
+    found = error_estimate(traces, 3, least=0.005, most=most, extrapolate=True, thinnest="exit")
+    assert not found.extrapolated
+    assert found.discretisation_minimum > 7.665 / 7.653 - 1.0
 
 
 def factors(*values: float) -> Factors:

@@ -21,7 +21,7 @@ from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.convergence import GridTrace
 from tehl.solver.judging.film_summary import central_value
-from tehl.solver.judging.grid_errors import error_estimate, single_grid_estimate
+from tehl.solver.judging.grid_errors import Thinnest, error_estimate, single_grid_estimate
 from tehl.solver.judging.measures import (
     is_pressed_at_end,
     is_thinnest_at_end,
@@ -136,7 +136,7 @@ def _by_grids(
             most=MOST_EXPECTED * expected if expected and is_limited else math.inf,
             extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == compared[-2:],
             kind=scaled.problem.contact.type,
-            at_sides=_is_thin_at_sides(level),
+            thinnest=_thinnest(level),
         )
     # grids that resolve the same heights
     compared = comparable(traces[roughness.first_comparable :], goes_on=goes_on)
@@ -149,11 +149,13 @@ def _by_grids(
     )
 
 
-def _is_thin_at_sides(level: Level) -> bool:
-    """Return whether the minimum film of a heavily loaded wide contact grows with each grid."""
-    groups = level.equations.groups
-    is_wide = groups.ellipticity < LEAST_SLENDER and groups.M > LOAD_AT_SIDES
-    return is_wide and is_thinnest_at_side(level)
+def _thinnest(level: Level) -> Thinnest:
+    """Return where a heavily loaded film is thinnest, as `error_estimate` asks."""
+    groups, at_side = level.equations.groups, is_thinnest_at_side(level)
+    is_wide = groups.ellipticity < LEAST_SLENDER
+    if is_wide and at_side and groups.M > LOAD_AT_SIDES:
+        return "sides"
+    return "anywhere" if is_wide or at_side or groups.M < LOAD_AT_EXIT else "exit"
 
 
 def comparable(traces: list[GridTrace], *, goes_on: bool = False) -> list[GridTrace]:
