@@ -14,7 +14,17 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from tests.browser.conftest import Served, busy, choose, number, opened, solved, type_into, until
+from tests.browser.conftest import (
+    PATIENCE,
+    Served,
+    busy,
+    choose,
+    number,
+    opened,
+    solved,
+    type_into,
+    until,
+)
 
 
 def status_of(address, **headers):
@@ -145,15 +155,16 @@ def test_a_link_that_is_too_long_is_a_sentence(served):
 def test_a_tab_of_a_page_that_was_started_again_names_the_new_address(browser, tmp_path, compiled):
     del compiled
     context = browser.new_context()
+    context.set_default_timeout(PATIENCE)
     for name in ("first", "second"):
         (tmp_path / name).mkdir()
     first = Served(folder=tmp_path / "first")
     port = str(urlsplit(first.address).port)
     page = opened(context, first.address)
     assert first.end() == 0
-    page.get_by_text("The page has ended").wait_for(timeout=60_000)
+    page.get_by_text("The page has ended").wait_for()
     second = Served("--port", port, folder=tmp_path / "second")
-    page.get_by_text("Open the new address").wait_for(timeout=60_000)
+    page.get_by_text("Open the new address").wait_for()
     context.close()
     assert second.end() == 0
 
