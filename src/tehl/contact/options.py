@@ -112,8 +112,9 @@ class Options(Table):
     Left out, they are where ``error`` decides the nodes, for steady contacts whose surfaces are
     smooth on the mesh."""
     max_time: Duration = 3600.0
-    """Wall time after which no finer grid is started. Where it is stated, transient runs begin no
-    further step after it either; ``tehl solve --resume`` continues for as long again."""
+    """Wall time after which no finer grid and no cycle begins, but for a first second. It has to be
+    stated to limit solves on stated ``points`` and transient runs, which begin no further step
+    after it; ``tehl solve --resume`` continues for as long again."""
     max_memory: Annotated[ByteSize, Field(gt=0), BeforeValidator(_memory)] | None = None
     """Memory that grids for an ``error`` may need, such as ``"2 GB"``; left out, 1.2 GB, at most
     half of what is free. Stated ``points`` may take all."""

@@ -8,7 +8,7 @@ from tehl.result.bars import Estimate
 from tehl.result.solution import Cost, Provenance, Solution, Status
 
 TIME_OVER = "time_over"
-"""Cause of a run that ended early at ``numerics.max_time``."""
+"""Cause of a solve or run that ended early at ``numerics.max_time``."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -1,4 +1,4 @@
-"""Cost of a result: seconds, and their number in units of one FFT deformation on the same grid."""
+"""Cost of a result: seconds, their limit, and their number in units of one FFT deformation."""
 
 import math
 import time
@@ -7,10 +7,13 @@ from typing import TypeVar
 
 import numpy as np
 
+from tehl.contact.options import Options
 from tehl.result.solution import NO_COST, Cost, Solution
 
 Kind = TypeVar("Kind", bound=Solution)
 
+LEAST_SECONDS = 1.0
+"""Least time of a film, and of the trials of a hint after it [s]."""
 SUFFICIENT_TIMING, LONGEST_TIMING = 0.06, 0.3
 """CPU seconds after which no further transform is timed, a few ticks of any CPU clock, and most
 seconds on a busy machine."""
@@ -38,6 +41,20 @@ class Clock:
         return self.before + Cost(
             cpu_seconds=time.process_time() - self._cpu, wall_seconds=self.seconds
         )
+
+
+def end_of_time(options: Options) -> float:
+    """Return when the time of a solve that begins now is over, on the clock of `perf_counter` [s].
+
+    Never on stated nodes without a stated ``max_time``.
+
+    Parameters
+    ----------
+    options : Options
+        With the limit of the time, and the nodes.
+    """
+    is_limited = options.points == "auto" or "max_time" in options.model_fields_set
+    return time.perf_counter() + options.max_time if is_limited else math.inf
 
 
 def fft_seconds(nx: int, ny: int) -> float:

@@ -1,9 +1,7 @@
-"""Receivers of the reports of a solve: protocols, and those that discard, record or end it."""
+"""Receivers of the reports of a solve: protocols, and those that discard or record it."""
 
-import time
 from typing import Protocol
 
-from tehl.base.errors import TehlError
 from tehl.result.solution import CycleReport
 from tehl.result.transient import StepReport
 
@@ -44,21 +42,3 @@ class Recorder:
         """Record the report and pass it on."""
         self.reports.append(report)
         self._monitor.cycle(report)
-
-
-class TimeIsOverError(TehlError):
-    """A solve has taken the time that it was given."""
-
-
-class Deadline:
-    """Passes everything on to ``monitor``; ends the solve at the first cycle after ``seconds``."""
-
-    def __init__(self, monitor: Monitor, seconds: float) -> None:
-        self._monitor, self._end = monitor, time.perf_counter() + seconds
-        self.message = monitor.message
-
-    def cycle(self, report: CycleReport) -> None:
-        """Pass the report on; raise TimeIsOverError if the time is over."""
-        self._monitor.cycle(report)
-        if time.perf_counter() > self._end:
-            raise TimeIsOverError("the time is over")

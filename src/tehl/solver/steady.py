@@ -35,20 +35,22 @@ from tehl.result.solution import (
     Status,
     Supplied,
 )
-from tehl.solver.cost import Clock
+from tehl.result.transient import TIME_OVER
+from tehl.solver.cost import Clock, end_of_time
 from tehl.solver.cycle.continuation import TouchingError
 from tehl.solver.cycle.film_solver import FilmSolver, Solved
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy, ladder
 from tehl.solver.cycle.level import Level
-from tehl.solver.judging.diagnosis import diverged
+from tehl.solver.judging.convergence import TimeIsOverError
+from tehl.solver.judging.diagnosis import diverged, time_over
 from tehl.solver.judging.extrapolation import Outputs, extrapolated, outputs_of
 from tehl.solver.judging.film_summary import central_value, film_summary
 from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.outputs import oil_balance
-from tehl.solver.judging.remedy import LEAST_SECONDS, Reached, solved_on_other_nodes, working_hint
+from tehl.solver.judging.remedy import Reached, solved_on_other_nodes, working_hint
 from tehl.solver.judging.verdict import TOO_COARSE, touching, verdict
-from tehl.solver.monitor import SILENT, Deadline, Monitor, Recorder, TimeIsOverError
+from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.physics.dynamics import with_dynamics
 
 NO_MEMORY = "memory"
@@ -85,7 +87,8 @@ class Attempt:
     def rank(self) -> tuple[bool, bool, bool, float]:
         """Sorting key, best first: final, converged, finite, least error of a grid too coarse."""
         error = self.run.film_error() if self.status.cause in GRID_CAUSES else 0.0
-        return not self.is_final, not self.reached, self.status.kind == "diverged", error
+        is_wrong = self.status.kind == "diverged" or self.status.cause == TIME_OVER
+        return not self.is_final, not self.reached, is_wrong, error
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,6 +175,7 @@ def solve(
     *,
     guess: Solution | None = None,
     monitor: Monitor = SILENT,
+    until: float | None = None,
 ) -> Solution:
     """Solve a steady contact between bodies of stated temperatures, by full multigrid.
 
@@ -187,14 +191,16 @@ def solve(
             raise InputError(
                 f"{why}; solve it with tehl.{function} (the command tehl solve does so by itself)"
             )
-    started = time.perf_counter()
-    attempt, result = try_strategies(problem, options, monitor=monitor, rough=True, guess=guess)
+    warm_up(coupled=problem.is_coupled)
+    until = end_of_time(options) if until is None else until
+    attempt, result = try_strategies(
+        problem, options, monitor=monitor, rough=True, guess=guess, until=until
+    )
     if not result.status.converged:
         status = result.status
         unsure = status.kind in ("diverged", "stalled") or status.cause in WITHOUT_ERROR
         if options.points == "auto" and unsure:
-            end = started + options.max_time
-            result = _after_failure(result, attempt.reached_before, monitor, end)
+            result = _after_failure(result, attempt.reached_before, monitor, until)
     if not result.status.converged:
         raise ConvergenceError(result.status.message or "not converged", result)
     return result
@@ -212,8 +218,7 @@ def _after_failure(
     """
 
     def attempt(problem: ContactProblem, options: Options) -> Solution:
-        limited = Deadline(monitor, max(options.max_time, LEAST_SECONDS))
-        return try_strategies(problem, options, monitor=limited, rough=True)[1]
+        return try_strategies(problem, options, monitor=monitor, rough=True)[1]
 
     def trial(problem: ContactProblem, options: Options) -> Solution:
         return attempt(problem.model_copy(update={"dynamics": None}), options)
@@ -228,10 +233,9 @@ def _after_failure(
     if reached is None or failed.status.cause == "error_not_reached":  # its film is the best
         return failed
     (nx, ny), error = reached
-    try:
-        kept = attempt(failed.problem, failed.options.on_points(nx, ny))
-    except TimeIsOverError:
-        return failed
+    again = failed.options.on_points(nx, ny)
+    left = max(end - time.perf_counter(), 0.0)
+    kept = attempt(failed.problem, again.model_copy(update={"max_time": left}))
     if not kept.status.converged:
         return failed
     text = f"The film on {grid_size((nx, ny))} is kept; its error is about {percentage(error)}."
@@ -253,6 +257,7 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     guess: Solution | None = None,
     flooded: Flooded | None = None,
     of_central: bool = False,
+    until: float | None = None,
 ) -> tuple[Attempt, Solution]:
     """Try the strategies; return the best attempt at the steady film and its result.
 
@@ -266,15 +271,18 @@ def try_strategies(  # noqa: PLR0913 (one solve)
         The flooded contact; None computes it if oil is supplied.
     of_central : bool
         As in `Goal`.
+    until : float or None
+        When the time is over, on the clock of `time.perf_counter` [s]; None is that of the options.
     """
     warm_up(coupled=problem.is_coupled)
+    until = end_of_time(options) if until is None else until
     options = settled(problem, options)
-    flooded = flooded or flooded_film(problem, options, monitor)
+    flooded = flooded or flooded_film(problem, options, monitor, until)
     clock, history = Clock(), Recorder(monitor)
     scaled = ScaledProblem.of(problem)
     if flooded is not None:
         scaled = replace(scaled, flooded_oil=flooded.oil, flooded_error=flooded.error)
-    goal = Goal(scaled, options, of_central=of_central)
+    goal = Goal(scaled, options, of_central=of_central, until=until)
     plan = goal.fitting(planned(scaled, options))
     check_supply(scaled, domain_of(scaled, plan))
     check_film(scaled)
@@ -296,7 +304,10 @@ def try_strategies(  # noqa: PLR0913 (one solve)
 
 
 def flooded_film(
-    problem: ContactProblem, options: Options, monitor: Monitor = SILENT
+    problem: ContactProblem,
+    options: Options,
+    monitor: Monitor = SILENT,
+    until: float | None = None,
 ) -> Flooded | None:
     """Solve the same contact, flooded and smooth, on the domain that it needs.
 
@@ -308,6 +319,8 @@ def flooded_film(
         Of the starved solve; domain and edges are chosen anew.
     monitor : Monitor
         Receives the cycles.
+    until : float or None
+        As in `try_strategies`.
 
     Returns
     -------
@@ -320,7 +333,9 @@ def flooded_film(
     monitor.message("the fully flooded contact")
     same = problem.model_copy(update=changes)
     options = options.model_copy(update={"domain": "auto", "edges": "auto"})
-    attempt, result = try_strategies(same, options, monitor=SILENT, rough=False, of_central=True)
+    attempt, result = try_strategies(
+        same, options, monitor=SILENT, rough=False, of_central=True, until=until
+    )
     errors = result.errors
     is_known = attempt.reached and errors is not None and errors.central < FORMULA_ERROR
     if not (result.status.converged or is_known):
@@ -375,6 +390,12 @@ def _run(run: FilmSolver, *, force: bool, solved: tuple[Solved, ...]) -> Attempt
             reached = run.solve(force=force, solved=solved)
         except TouchingError as error:
             return Attempt(run=run, status=touching(run, error.part), reached=True)
+        except TimeIsOverError:
+            if run.goal.is_open and run.keep_solved(solved):
+                run.goal.obstacle = f"numerics.max_time is {run.options.max_time:g} s, and over"
+                return Attempt(run=run, status=verdict(run, reached=True), reached=True)
+            run.hierarchy.salvage()
+            return Attempt(run=run, status=time_over(run), reached=False)
         except ArithmeticError:
             run.hierarchy.salvage()
             return Attempt(run=run, status=diverged(run), reached=False)

@@ -181,6 +181,25 @@ class FilmSolver(GridIteration):
                     self._keep(self.levels)
                 self._refine()
 
+    def keep_solved(self, known: tuple[Solved, ...]) -> bool:
+        """Make the finest grid that is solved the last one; return whether it has error bars.
+
+        Parameters
+        ----------
+        known : tuple of Solved
+            Grids that another strategy solved.
+        """
+        last = max((*known, *self.solved), key=lambda one: len(one.traces), default=None)
+        if last is None or len(last.traces) <= GRIDS_WITHOUT_BARS:
+            return False
+        del self.levels[len(last.traces) :]
+        self.traces[:] = last.traces
+        pose_problem(self.finest)
+        self.finest.set_state(*last.state)
+        self.coupling.take(self.levels, last.heat)
+        self.finest.update()
+        return self.errors() is not None
+
     def _has_converged(self) -> bool:
         """Return whether the last grid converged, and its oil flux is constant."""
         return self.balance.is_settled and converged(

@@ -21,8 +21,8 @@ from tehl.solver.judging.balance import LARGEST_OIL_ERROR, Balance
 from tehl.solver.judging.convergence import (
     SECOND_LOAD,
     SECOND_RATE,
-    SLOW_CYCLES,
     GridTrace,
+    TimeIsOverError,
     check_divergence,
     film_converged,
     must_stop,
@@ -160,8 +160,6 @@ class GridIteration:
     def _is_done(self, trace: GridTrace, *, finest: bool) -> bool:
         """Return whether the iteration on a grid has converged or stalled."""
         coarser = self._coarser_trace()
-        if finest and self.goal.is_over and len(trace.reports) >= SLOW_CYCLES:
-            return True
         if not self.balance.is_settled:
             return stalled(trace, self.strategy.patience)
         if not finest:
@@ -252,7 +250,12 @@ class GridIteration:
     def _iteration(
         self, levels: Sequence[Level], step: Callable[[], object], number: int
     ) -> CycleReport:
-        """Perform one cycle or Newton step on the last of ``levels``, update heat, and report."""
+        """Perform one cycle or Newton step on the last of ``levels``, update heat, and report.
+
+        Raises TimeIsOverError in place of a cycle after the time of the goal.
+        """
+        if self.goal.is_over:
+            raise TimeIsOverError
         fine = levels[-1]
         fine.cavity.keeps_orders = number > FREE_ORDERS
         before = fine.pressure.copy()

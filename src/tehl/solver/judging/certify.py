@@ -13,6 +13,7 @@ from tehl.post.following import Following
 from tehl.result import registry
 from tehl.result.bars import Estimate
 from tehl.result.solution import NO_COST, ConvergenceError, Cost, Hint, Solution, Status
+from tehl.solver.cost import end_of_time
 from tehl.solver.judging.measures import SPIKE_FROM, highest_excess
 from tehl.solver.judging.richardson import (
     LESS_REGULAR,
@@ -75,22 +76,23 @@ def certify(
         When the grid cannot be halved twice.
     """
     options, known = options or Options(), None
+    until = end_of_time(options) if "max_time" in options.model_fields_set else None
     if problem.contact.has_lines:
         options = settled(problem, options)
     if options.points == "auto":
         monitor.message("certify: number of nodes")
-        known = solve(problem, options, monitor=monitor)
+        known = solve(problem, options, monitor=monitor, until=until)
         options = certifiable(known.grid_options)
     options = options.model_copy(update={"accuracy": "tight", "extrapolate": False})
     check_certifiable(options)
     monitor.message("certify: grid 1 of 3")
-    first = _companion(problem, halved(options, 2), monitor)
+    first = _companion(problem, halved(options, 2), monitor, until)
     monitor.message("certify: grid 2 of 3")
-    middle = _companion(problem, halved(options, 1), monitor)
+    middle = _companion(problem, halved(options, 1), monitor, until)
     monitor.message("certify: grid 3 of 3")
-    finest = solve(problem, options, guess=known, monitor=monitor)
+    finest = solve(problem, options, guess=known, monitor=monitor, until=until)
     monitor.message("certify: larger domain")
-    wide = _companion(problem, widened(options, finest), monitor)
+    wide = _companion(problem, widened(options, finest), monitor, until)
     finest = finest.but(cost=finest.cost + first.cost + middle.cost + wide.cost)
     result = _with_bars(
         finest,
@@ -126,10 +128,12 @@ def _message(
     return message
 
 
-def _companion(problem: ContactProblem, options: Options, monitor: Monitor) -> Companion[Solution]:
+def _companion(
+    problem: ContactProblem, options: Options, monitor: Monitor, until: float | None
+) -> Companion[Solution]:
     """Solve on a coarser grid, which need not resolve the film but must converge."""
     try:
-        result = solve(problem, options, monitor=monitor)
+        result = solve(problem, options, monitor=monitor, until=until)
     except UnresolvedError as error:
         monitor.message(f"certify: {error}")
         return Companion(ending=f"{nodes_of(options)} too coarse for the roughness")

@@ -69,6 +69,10 @@ RECEDING = 2
 """Successive cycles in which the residual grows that end a strategy if another one follows."""
 
 
+class TimeIsOverError(Exception):
+    """The time of a solve is over before a cycle."""
+
+
 class DivergedError(ArithmeticError):
     """Runaway or non-finite unknowns, a failed step, or a coarser grid that is not accepted."""
 

@@ -16,6 +16,7 @@ from tehl.estimate.nodes import expected_points, film_to_resolve
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.summits import shared_load
 from tehl.result.solution import Hint, Settings, Status
+from tehl.result.transient import TIME_OVER
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.convergence import temperature_scale
@@ -95,6 +96,20 @@ def not_reached(run: FilmSolver) -> Status:
         cause="stalled",
         message=message,
         hint=_smoother_hint(run) or _error_hint(run) or hint,
+    )
+
+
+def time_over(run: FilmSolver) -> Status:
+    """Return the status of a run whose time was over before a grid with error bars converged."""
+    points = run.levels[max(len(run.traces) - 1, 0)].grid.points
+    return Status(
+        kind="not_converged",
+        cause=TIME_OVER,
+        message=(
+            f"numerics.max_time = {run.options.max_time:g} s is over on {grid_size(points)}, and "
+            "no coarser grid converged to a film with error bars."
+        ),
+        hint=Hint("Take a longer numerics.max_time, or fewer nodes (numerics.points)."),
     )
 
 

@@ -16,6 +16,7 @@ from tehl.estimate.spin import spin_error
 from tehl.estimate.starvation import supply_error
 from tehl.estimate.third_order import LEAST_SLENDER, third_order_bar
 from tehl.result.bars import ErrorEstimate
+from tehl.solver.cost import LEAST_SECONDS
 from tehl.solver.cycle.continuation import Roughness
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.level import Level
@@ -197,11 +198,14 @@ class Goal:
         The contact, and the options of the user.
     of_central : bool
         Whether the error is that of the central film alone: a supply is stated to that.
+    until : float
+        When the time is over, on the clock of `time.perf_counter` [s].
     """
 
     scaled: ScaledProblem
     options: Options
     of_central: bool = False
+    until: float = math.inf
     obstacle: str = ""
     """Why no finer grid follows."""
     _tries: int = 0
@@ -283,8 +287,8 @@ class Goal:
 
     @property
     def is_over(self) -> bool:
-        """Whether the time is over, so that no other strategy is tried."""
-        return self.is_open and time.perf_counter() - self._started > self.options.max_time
+        """Whether the time is over, so that no other cycle begins."""
+        return time.perf_counter() > max(self.until, self._started + LEAST_SECONDS)
 
     def may_try(self, level: Level) -> bool:
         """Return whether a finer grid may follow one that did not converge."""
@@ -413,7 +417,7 @@ class Goal:
                 f"{grid_size((nx, ny))} need {needed / 1e9:.2g} GB of memory, and "
                 f"{_named_limit(self.options, available)}"
             )
-        elif now - self._started + expected > limit:
+        elif now + expected > self.until:
             self.obstacle = (
                 f"{grid_size((nx, ny))} would take {expected:.3g} s more, and numerics.max_time is "
                 f"{limit:g} s"

@@ -14,6 +14,7 @@ from tehl.contact.problem import ContactProblem
 from tehl.estimate.nodes import FAMILIES, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.result.solution import Hint, Settings, Solution, settings_text
+from tehl.solver.cost import LEAST_SECONDS
 from tehl.solver.judging.diagnosis import error_setting
 from tehl.solver.monitor import Monitor
 
@@ -23,8 +24,6 @@ THINNING = {"law": "eyring", "stress": "5 MPa"}
 """The shear law of a usual oil."""
 TRIAL_TIME_FACTOR = 3.0
 """Time for the trials over that of the failed solve, up to ``numerics.max_time``."""
-LEAST_SECONDS = 1.0
-"""Least time for the trials."""
 Solve = Callable[[ContactProblem, Options], Solution]
 Reached = tuple[tuple[int, int], float]
 """Nodes (nx, ny) and relative error of a film that converged."""

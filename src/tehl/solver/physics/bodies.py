@@ -12,6 +12,7 @@ from tehl.estimate.bodies import RUNAWAY, NotBalancedError, balanced
 from tehl.post.bodies import heat_into_bodies
 from tehl.result.solution import ConvergenceError, Cost, Hint, Solution, Status
 from tehl.solver import steady
+from tehl.solver.cost import end_of_time
 from tehl.solver.monitor import SILENT, Monitor
 
 HINT = Hint(
@@ -28,6 +29,7 @@ def solve(
     *,
     guess: Solution | None = None,
     monitor: Monitor = SILENT,
+    until: float | None = None,
 ) -> Solution:
     """Solve a steady contact by full multigrid.
 
@@ -44,6 +46,9 @@ def solve(
     monitor : Monitor
         Receives the report of each cycle, and a message for each film between bodies whose
         temperatures are computed; cycles of the first of them only.
+    until : float
+        When the time is over, on the clock of `time.perf_counter` [s]; that of the options if left
+        out.
 
     Returns
     -------
@@ -58,8 +63,8 @@ def solve(
         When the grid does not fit into the memory, or a measured surface cannot be read.
     """
     if not problem.computes_bodies:
-        return steady.solve(problem, options, guess=guess, monitor=monitor)
-    films = _Films(problem, options, guess, monitor)
+        return steady.solve(problem, options, guess=guess, monitor=monitor, until=until)
+    films = _Films(problem, options, guess, monitor, until)
     try:
         bodies = balanced(problem, films.heats)
     except NotBalancedError as error:
@@ -82,7 +87,9 @@ class _Films:
         options: Options | None,
         guess: Solution | None,
         monitor: Monitor,
+        until: float | None,
     ) -> None:
+        self.until = end_of_time(options or Options()) if until is None else until
         self.problem, self.options, self.monitor = problem, options, monitor
         self.contact = problem.model_copy(update={"dynamics": None})  # those of the last are kept
         self.guess, self.cost = guess, Cost(cpu_seconds=0.0, wall_seconds=0.0)
@@ -94,7 +101,9 @@ class _Films:
         between = self.contact.with_bodies(first, second)
         self.last, cycles = None, SILENT if self.is_begun else self.monitor
         try:
-            found = steady.solve(between, self.options, guess=self.guess, monitor=cycles)
+            found = steady.solve(
+                between, self.options, guess=self.guess, monitor=cycles, until=self.until
+            )
         except ConvergenceError as error:
             self.last, found = error, error.result
         self.cost += found.cost

@@ -18,6 +18,7 @@ from tehl.estimate.starvation import Flooded
 from tehl.post.starvation import meniscus
 from tehl.result.fields import PassHistory
 from tehl.result.solution import ConvergenceError, Cost, Hint, Solution, Status
+from tehl.solver.cost import end_of_time
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import TOO_COARSE, try_strategies
 
@@ -86,11 +87,12 @@ def solve_passes(
         When the case states no passes.
     """
     options, supply = options or Options(), problem.supply
+    until = end_of_time(options)
     if supply is None or supply.passes is None:
         raise InputError("supply.passes is missing: state how often the surfaces pass the contact")
     state, result = resume, None
     for number in range(len(state.rows) if state else 0, supply.passes):
-        result = _one_pass(problem, options, state, monitor if number == 0 else SILENT)
+        result = _one_pass(problem, options, state, monitor if number == 0 else SILENT, until)
         state = _after(result, problem, supply, state)
         if not result.status.converged:
             raise ConvergenceError(
@@ -114,11 +116,15 @@ def solve_passes(
 
 
 def _one_pass(
-    problem: ContactProblem, options: Options, state: PassState | None, monitor: Monitor
+    problem: ContactProblem,
+    options: Options,
+    state: PassState | None,
+    monitor: Monitor,
+    until: float,
 ) -> Solution:
     """Return the film of the next pass, of the first one without a state."""
     if state is None:
-        return try_strategies(problem, options, monitor=monitor, rough=True)[1]
+        return try_strategies(problem, options, monitor=monitor, rough=True, until=until)[1]
     profile = tuple(zip(state.y.tolist(), state.layer.tolist(), strict=True))
     supply = Supply.model_construct(profile=profile)
     problem = problem.model_copy(update={"supply": supply})
@@ -127,7 +133,12 @@ def _one_pass(
     options = options.model_copy(update={"domain": domain}).on_points(*state.points)
     for _ in range(3):  # the grid is refined twice where the film becomes too thin for it
         _, result = try_strategies(
-            problem, options, monitor=monitor, rough=True, flooded=state.flooded
+            problem,
+            options,
+            monitor=monitor,
+            rough=True,
+            flooded=state.flooded,
+            until=until,
         )
         if result.status.cause not in TOO_COARSE:
             break

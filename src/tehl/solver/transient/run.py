@@ -1,6 +1,7 @@
 """Transient runs: the steady film at time zero, then the time steps to the end."""
 
 import math
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 
@@ -22,7 +23,7 @@ from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import MovingHeights
 from tehl.result.solution import ConvergenceError, Hint, Solution, Status
 from tehl.result.transient import TIME_OVER, StepReport, TransientSolution
-from tehl.solver.cost import Clock
+from tehl.solver.cost import Clock, end_of_time
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
 from tehl.solver.judging.measures import is_resolved, mid_film_stress, mid_film_traction
@@ -37,7 +38,7 @@ SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
 """Relaxations of a step, fastest first; and those for heated or shear-thinning films."""
 START_TOLERANCE, TIGHT_TIME = 1e-7, 0.5
 """Tolerance of the steady film at time zero, and part of the time for it."""
-UNSETTLED = ("stalled", "too_few_cycles")
+UNSETTLED = ("stalled", "too_few_cycles", TIME_OVER)
 """Causes of a failed start that another accuracy may remove."""
 NEARLY_CONVERGED = 1e-6
 """Change of P in the last cycle of a time step that only a tight tolerance rejects."""
@@ -372,12 +373,13 @@ def _steady_start(
         update={
             "accuracy": "tight",
             "tolerance": min(options.tolerance, START_TOLERANCE),
-            "max_time": TIGHT_TIME * options.max_time,
         }
     )
-    attempt, result = try_strategies(problem, tight, monitor=monitor, rough=rough)
+    now, end = time.perf_counter(), end_of_time(options)
+    until = now + TIGHT_TIME * (end - now)
+    attempt, result = try_strategies(problem, tight, monitor=monitor, rough=rough, until=until)
     if result.status.cause in UNSETTLED and options.accuracy != "tight":
-        attempt, result = try_strategies(problem, options, monitor=monitor, rough=rough)
+        attempt, result = try_strategies(problem, options, monitor=monitor, rough=rough, until=end)
     result = result.but(options=options)
     if not result.status.converged:
         message = f"The steady film at time zero did not converge: {result.status.message}"
