@@ -86,16 +86,8 @@ def _fault_of_edges(low: float, high: float) -> str:
     return ""
 
 
-@part_of_case(NUMERICS, NUMERICS)
-class Options(Table):
-    """Numerical options of a run; the defaults suit a smooth isothermal contact."""
-
-    synonyms: ClassVar = {
-        "points": "nodes n grid mesh nx ny",
-        "error": "precision relative_error",
-        "max_cycles": "iterations max_iterations cycles",
-        "max_time": "timeout time_limit",
-    }
+class Discretisation(Table):
+    """Which equations are solved: the error to reach, grid, domain, and order of the wedge."""
 
     error: Annotated[Share, Field(ge=LEAST_ERROR, le=LARGEST_ERROR)] | None = None
     """Relative error of the central and of the minimum film to reach, such as ``"0.5 %"``;
@@ -124,32 +116,9 @@ class Options(Table):
     edges: Literal["auto", "far_field", "zero"] = "auto"
     """Pressure on the edges of the domain: that of the far field, or zero as in much of the
     literature; ``"auto"`` takes the far field unless ``domain`` is stated."""
-    deformation: Literal["auto", "mlmi", "fft", "lines", "direct"] = "auto"
-    """Method for the elastic deflection; ``"auto"`` takes the cheapest, of those that are
-    exact to rounding if ``accuracy = "tight"``."""
-    cycle: Literal["V", "W", "F"] = "V"
-    """Multigrid cycle."""
-    pre_sweeps: Sweeps = 2
-    post_sweeps: Sweeps = 2
-    """Relaxation sweeps before and after the coarse-grid correction, at least one together."""
     wedge_order: Literal[1, 2, 3] | None = None
     """Order of the upstream difference of the wedge term; with 3 the conductance between two nodes
     is their geometric mean too. Left out, it is 3 where ``extrapolate`` holds, else 2."""
-    smoother: Literal["auto", "fast", "broad", "robust", "gauss-seidel"] = "auto"
-    """Setting of the hybrid line relaxation; ``"auto"`` falls back from fast to robust, and from
-    broad to robust where heat or shear thinning widen the zone in which the film conducts.
-    ``"gauss-seidel"`` is plain point relaxation, for teaching; it diverges in loaded contacts."""
-    accuracy: Literal["discretisation", "tight", "change"] = "discretisation"
-    """``"discretisation"`` stops when the estimated iteration error of minimum and central film is
-    below a third of the discretisation error, ``"tight"`` at ``tolerance``. ``"change"`` stops, as
-    much of the literature does, as soon as one cycle changes pressure and temperature by little;
-    the result is judged as for ``"discretisation"``."""
-    tolerance: Annotated[float, Field(gt=0, lt=1), NO_BOOLEAN] = 1e-6
-    """Limit of the diagonal-scaled residual, the change per cycle and the load error [-]."""
-    max_cycles: Annotated[int, Field(ge=1, le=1000), NO_BOOLEAN] = 40
-    """Largest number of cycles on the finest grid."""
-    half_domain: Literal["auto", "never"] = "auto"
-    """``"auto"`` computes only y >= 0 if the problem is symmetric in y."""
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -169,7 +138,7 @@ class Options(Table):
         usual = USUAL_ERROR if self.extrapolate else USUAL_PLAIN_ERROR
         return usual if self.error is None else self.error
 
-    def on_points(self, nx: int, ny: int) -> "Options":
+    def on_points(self, nx: int, ny: int) -> Self:
         """Return these options with the nodes ``nx``, ``ny`` stated.
 
         Parameters
@@ -210,6 +179,45 @@ class Options(Table):
                 f"{LARGEST_COARSEST} at most; take more nodes along the shorter direction"
             )
         return self
+
+
+@part_of_case(NUMERICS, NUMERICS)
+class Options(Discretisation):
+    """Numerical options of a run: its equations, and how they are solved.
+
+    The defaults suit a smooth isothermal contact.
+    """
+
+    synonyms: ClassVar = {
+        "points": "nodes n grid mesh nx ny",
+        "error": "precision relative_error",
+        "max_cycles": "iterations max_iterations cycles",
+        "max_time": "timeout time_limit",
+    }
+
+    deformation: Literal["auto", "mlmi", "fft", "lines", "direct"] = "auto"
+    """Method for the elastic deflection; ``"auto"`` takes the cheapest, of those that are
+    exact to rounding if ``accuracy = "tight"``."""
+    cycle: Literal["V", "W", "F"] = "V"
+    """Multigrid cycle."""
+    pre_sweeps: Sweeps = 2
+    post_sweeps: Sweeps = 2
+    """Relaxation sweeps before and after the coarse-grid correction, at least one together."""
+    smoother: Literal["auto", "fast", "broad", "robust", "gauss-seidel"] = "auto"
+    """Setting of the hybrid line relaxation; ``"auto"`` falls back from fast to robust, and from
+    broad to robust where heat or shear thinning widen the zone in which the film conducts.
+    ``"gauss-seidel"`` is plain point relaxation, for teaching; it diverges in loaded contacts."""
+    accuracy: Literal["discretisation", "tight", "change"] = "discretisation"
+    """``"discretisation"`` stops when the estimated iteration error of minimum and central film is
+    below a third of the discretisation error, ``"tight"`` at ``tolerance``. ``"change"`` stops, as
+    much of the literature does, as soon as one cycle changes pressure and temperature by little;
+    the result is judged as for ``"discretisation"``."""
+    tolerance: Annotated[float, Field(gt=0, lt=1), NO_BOOLEAN] = 1e-6
+    """Limit of the diagonal-scaled residual, the change per cycle and the load error [-]."""
+    max_cycles: Annotated[int, Field(ge=1, le=1000), NO_BOOLEAN] = 40
+    """Largest number of cycles on the finest grid."""
+    half_domain: Literal["auto", "never"] = "auto"
+    """``"auto"`` computes only y >= 0 if the problem is symmetric in y."""
 
     @model_validator(mode="after")
     def _must_relax(self) -> Self:

@@ -31,11 +31,8 @@ def _printable(title: str) -> str:
 Title = Annotated[str, AfterValidator(_printable)]
 
 
-class PointContact(Table):
-    """A lubricated contact as its tables state it; `ContactProblem` checks that they agree.
-
-    Derived quantities in SI are properties.
-    """
+class LubricatedPair(Table):
+    """Two bodies under a load and in motion, and the oil between them."""
 
     title: Title = ""
     """Shown in reports and pictures."""
@@ -48,20 +45,6 @@ class PointContact(Table):
     """A named oil or its laws."""
     thermal: Thermal | None = None
     """Settings of the heat; None is an isothermal film."""
-    transient: Transient | None = None
-    """Settings of a transient run, in which roughness moves with its surface; None is steady."""
-    supply: Supply | None = None
-    """The oil that reaches the inlet; None is fully flooded."""
-    asperities: Asperities | None = None
-    """Asperities finer than the grid; None has none."""
-    contact_film: ContactFilm | None = None
-    """Boundary film through which the surfaces may touch; None has no contact."""
-    cavitation: Cavitation | None = None
-    """What happens to the oil in cavities; None conserves it in starved contacts only."""
-    stress: Stress | None = None
-    """Settings of the stress below the surfaces; None does not compute it."""
-    dynamics: Dynamics | None = None
-    """Frequencies of the stiffness and damping of the film; None does not compute them."""
 
     @property
     def radii(self) -> Radii:
@@ -141,23 +124,6 @@ class PointContact(Table):
             if stated is not None:
                 return stated
         return self.lubricant.viscosity.reference_temperature
-
-    @property
-    def heat(self) -> FilmEnergy | None:
-        """Return the heat problem of the film, None if it is isothermal."""
-        if self.thermal is None:
-            return None
-        inlet, first = self.inlet_temperature, self.surface_1.temperature
-        second = self.surface_2.temperature
-        return FilmEnergy(
-            temperature=inlet,
-            bulk_1=inlet if first is None else first,
-            bulk_2=inlet if second is None else second,
-            reynolds=self.thermal.reynolds,
-            layers=self.thermal.nodes,
-            scheme=self.thermal.scheme,
-            sources="line" if self.transient is not None else self.thermal.sources,
-        )
 
     @property
     def resistances(self) -> tuple[float | None, float | None]:
@@ -287,17 +253,56 @@ class PointContact(Table):
         return math.hypot(self.surface_1.rms_roughness, self.surface_2.rms_roughness)
 
     @property
+    def is_rough(self) -> bool:
+        """Whether a surface has heights."""
+        return not (self.surface_1.roughness.is_smooth and self.surface_2.roughness.is_smooth)
+
+
+class PointContact(LubricatedPair):
+    """A lubricated contact as its tables state it; `ContactProblem` checks that they agree.
+
+    Derived quantities in SI are properties.
+    """
+
+    transient: Transient | None = None
+    """Settings of a transient run, in which roughness moves with its surface; None is steady."""
+    supply: Supply | None = None
+    """The oil that reaches the inlet; None is fully flooded."""
+    asperities: Asperities | None = None
+    """Asperities finer than the grid; None has none."""
+    contact_film: ContactFilm | None = None
+    """Boundary film through which the surfaces may touch; None has no contact."""
+    cavitation: Cavitation | None = None
+    """What happens to the oil in cavities; None conserves it in starved contacts only."""
+    stress: Stress | None = None
+    """Settings of the stress below the surfaces; None does not compute it."""
+    dynamics: Dynamics | None = None
+    """Frequencies of the stiffness and damping of the film; None does not compute them."""
+
+    @property
+    def heat(self) -> FilmEnergy | None:
+        """Return the heat problem of the film, None if it is isothermal."""
+        if self.thermal is None:
+            return None
+        inlet, first = self.inlet_temperature, self.surface_1.temperature
+        second = self.surface_2.temperature
+        return FilmEnergy(
+            temperature=inlet,
+            bulk_1=inlet if first is None else first,
+            bulk_2=inlet if second is None else second,
+            reynolds=self.thermal.reynolds,
+            layers=self.thermal.nodes,
+            scheme=self.thermal.scheme,
+            sources="line" if self.transient is not None else self.thermal.sources,
+        )
+
+    @property
     def asperity_rms(self) -> float:
         """Return sigma of the asperities finer than the grid, zero without [m]."""
         if self.asperities is None:
             return 0.0
         stated = self.asperities.rms
         return self.rms_roughness if stated is None else stated
-
-    @property
-    def is_rough(self) -> bool:
-        """Whether a surface has heights."""
-        return not (self.surface_1.roughness.is_smooth and self.surface_2.roughness.is_smooth)
 
     @property
     def is_even_in_y(self) -> bool:

@@ -132,38 +132,8 @@ class Surface(_WithRadii):
         return self
 
 
-class Contact(_WithRadii):
-    """Shape, load and motion of the contact."""
-
-    other_words: ClassVar = {
-        "width": 'a roller has type = "roller" and length, a contact without ends type = "line"',
-        "speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
-        "sliding_speed": "did you mean slide_roll_ratio, (u_1 - u_2) over the mean speed?",
-        **dict.fromkeys(
-            ("spin", "spin_speed", "omega", "spin_ratio"),
-            "did you mean spin_1 and spin_2, the angular velocities of both surfaces about the "
-            'normal of the contact, such as "300 rpm"?',
-        ),
-        "diameter": "did you mean radius, half of it?",
-    }
-    synonyms: ClassVar = {
-        "load": "force normal_load normal_force weight w f",
-        "load_per_length": "line_load unit_load specific_load w_l",
-        "hertz_pressure": "pressure max_pressure maximum_pressure hertz_stress p_h",
-        "entrainment_speed": "velocity mean_speed rolling_speed rolling_velocity u_m u",
-        "slide_roll_ratio": "srr slip slide_ratio sliding_ratio slide_to_roll",
-        "sliding_angle": "slip_angle sliding_direction skew_angle",
-        "spin_1": "omega_1 spin_speed_1",
-        "spin_2": "omega_2 spin_speed_2",
-        "radius_x": "rx r_x radius_1",
-        "radius_y": "ry r_y radius_2",
-        "radius": "r",
-        "entrainment_angle": "angle entrainment_direction theta",
-        "length": "effective_length l_we roller_length",
-        "tilt": "misalignment misalignment_angle",
-        "tilting_moment": "moment tilt_moment misalignment_moment",
-        "lubricant.temperature": "temperature oil_temperature",
-    }
+class ContactShape(_WithRadii):
+    """Shape of the contact: a circle, an ellipse, a line or a roller."""
 
     type: Literal["point", "line", "roller"] = "point"
     """A circle or an ellipse; a line without ends: then nothing changes across the entrainment, and
@@ -186,62 +156,21 @@ class Contact(_WithRadii):
     tilting_moment: Moment | None = None
     """Moment of the load of a roller about x [N m], positive if positive y carries more, in place
     of the tilt, which then follows; zero aligns the roller."""
-    load: Force | None = None
-    load_per_length: ForcePerLength | None = None
-    hertz_pressure: Pressure | None = None
-    moes_load: PositiveNumber | None = None
-    """Exactly one: w [N], in a line contact w [N/m], p_h [Pa] or M [-]."""
-    entrainment_speed: Speed | None = None
-    moes_speed: PositiveNumber | None = None
-    """Exactly one: u_m [m/s] or L [-]."""
-    entrainment_angle: Direction = 0.0
-    """Angle from the axis of radius_x to the entrainment, counter-clockwise [rad]; radii, of the
-    surfaces too, are those along the axes of the ellipse, while x is along the entrainment."""
-    slide_roll_ratio: Number = 0.0
-    """(u_1 - u_2) / u_m [-]."""
-    sliding_angle: Direction = 0.0
-    """Direction of u_1 - u_2 from that of the entrainment, counter-clockwise [rad]."""
-    velocity_1: Velocity | None = None
-    velocity_2: Velocity | None = None
-    """Velocities of both surfaces at the centre along the axes of radius_x and radius_y [m/s], in
-    place of entrainment speed and angle, slide-roll ratio and sliding angle."""
-    spin_1: AngularVelocity = 0.0
-    spin_2: AngularVelocity = 0.0
-    """Angular velocities of the surfaces about z, counter-clockwise [rad/s]; speeds are those at
-    the centre."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _convert_velocities(cls, stated: Any) -> Any:
-        return with_motion(stated)
 
     @model_validator(mode="after")
-    def _must_be_stated_once(self) -> Self:
-        own, other = ("load_per_length", "load") if self.is_line else ("load", "load_per_length")
-        if getattr(self, other) is not None:
-            raise ValueError(f"states {other}: a {self.type} contact takes {own}")
+    def _must_have_its_shape(self) -> Self:
         if self.has_lines and self.radius_x is not None:
             raise ValueError(f"states radius_x and radius_y: a {self.type} contact takes radius")
-        self._check_roller()
-        if self.has_lines and self.entrainment_angle != 0.0:
-            key = "entrainment_angle" if self.velocity_1 is None else "velocities at an angle to x"
+        if self.type == "roller":
+            self._check_roller()
+        elif stated := self._stated("length", "profile", "tilt", "tilting_moment", "ends"):
             raise ValueError(
-                f"states {key}: along a line contact nothing changes, so only the speed "
-                "across it makes a film; state that alone"
+                f'states {" and ".join(stated)}: only a contact with type = "roller" has ends'
             )
-        self._exactly_one(own, "hertz_pressure", "moes_load")
-        self._exactly_one("entrainment_speed", "moes_speed")
         return self
 
     def _check_roller(self) -> None:
-        """Check that a roller has a length, and no other contact what rollers have."""
-        if self.type != "roller":
-            stated = self._stated("length", "profile", "tilt", "tilting_moment", "ends")
-            if stated:
-                raise ValueError(
-                    f'states {" and ".join(stated)}: only a contact with type = "roller" has ends'
-                )
-            return
+        """Check that a roller has a length, and one statement of its tilt and ends."""
         if self.length is None:
             raise ValueError('needs length, on which the roller touches, such as "10 mm"')
         stated = self._stated("profile", "tilt", "tilting_moment")
@@ -284,3 +213,90 @@ class Contact(_WithRadii):
             raise ValueError(f"states {' and '.join(stated)}: only one of them may be given")
         if not stated:
             raise ValueError(f"needs one of {', '.join(names)}")
+
+
+class LoadedContact(ContactShape):
+    """Shape of the contact, and what presses it together."""
+
+    load: Force | None = None
+    load_per_length: ForcePerLength | None = None
+    hertz_pressure: Pressure | None = None
+    moes_load: PositiveNumber | None = None
+    """Exactly one: w [N], in a line contact w [N/m], p_h [Pa] or M [-]."""
+
+    @model_validator(mode="after")
+    def _must_be_loaded_once(self) -> Self:
+        own, other = ("load_per_length", "load") if self.is_line else ("load", "load_per_length")
+        if getattr(self, other) is not None:
+            raise ValueError(f"states {other}: a {self.type} contact takes {own}")
+        self._exactly_one(own, "hertz_pressure", "moes_load")
+        return self
+
+
+class Contact(LoadedContact):
+    """Shape, load and motion of the contact."""
+
+    other_words: ClassVar = {
+        "width": 'a roller has type = "roller" and length, a contact without ends type = "line"',
+        "speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
+        "sliding_speed": "did you mean slide_roll_ratio, (u_1 - u_2) over the mean speed?",
+        **dict.fromkeys(
+            ("spin", "spin_speed", "omega", "spin_ratio"),
+            "did you mean spin_1 and spin_2, the angular velocities of both surfaces about the "
+            'normal of the contact, such as "300 rpm"?',
+        ),
+        "diameter": "did you mean radius, half of it?",
+    }
+    synonyms: ClassVar = {
+        "load": "force normal_load normal_force weight w f",
+        "load_per_length": "line_load unit_load specific_load w_l",
+        "hertz_pressure": "pressure max_pressure maximum_pressure hertz_stress p_h",
+        "entrainment_speed": "velocity mean_speed rolling_speed rolling_velocity u_m u",
+        "slide_roll_ratio": "srr slip slide_ratio sliding_ratio slide_to_roll",
+        "sliding_angle": "slip_angle sliding_direction skew_angle",
+        "spin_1": "omega_1 spin_speed_1",
+        "spin_2": "omega_2 spin_speed_2",
+        "radius_x": "rx r_x radius_1",
+        "radius_y": "ry r_y radius_2",
+        "radius": "r",
+        "entrainment_angle": "angle entrainment_direction theta",
+        "length": "effective_length l_we roller_length",
+        "tilt": "misalignment misalignment_angle",
+        "tilting_moment": "moment tilt_moment misalignment_moment",
+        "lubricant.temperature": "temperature oil_temperature",
+    }
+
+    entrainment_speed: Speed | None = None
+    moes_speed: PositiveNumber | None = None
+    """Exactly one: u_m [m/s] or L [-]."""
+    entrainment_angle: Direction = 0.0
+    """Angle from the axis of radius_x to the entrainment, counter-clockwise [rad]; radii, of the
+    surfaces too, are those along the axes of the ellipse, while x is along the entrainment."""
+    slide_roll_ratio: Number = 0.0
+    """(u_1 - u_2) / u_m [-]."""
+    sliding_angle: Direction = 0.0
+    """Direction of u_1 - u_2 from that of the entrainment, counter-clockwise [rad]."""
+    velocity_1: Velocity | None = None
+    velocity_2: Velocity | None = None
+    """Velocities of both surfaces at the centre along the axes of radius_x and radius_y [m/s], in
+    place of entrainment speed and angle, slide-roll ratio and sliding angle."""
+    spin_1: AngularVelocity = 0.0
+    spin_2: AngularVelocity = 0.0
+    """Angular velocities of the surfaces about z, counter-clockwise [rad/s]; speeds are those at
+    the centre."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _convert_velocities(cls, stated: Any) -> Any:
+        return with_motion(stated)
+
+    @model_validator(mode="after")
+    def _must_move_once(self) -> Self:
+        if self.has_lines and self.entrainment_angle != 0.0:
+            key = "entrainment_angle" if self.velocity_1 is None else "velocities at an angle to x"
+            raise ValueError(
+                f"states {key}: along a line contact nothing changes, so only the speed "
+                "across it makes a film; state that alone"
+            )
+        self._exactly_one("entrainment_speed", "moes_speed")
+        return self

@@ -13,7 +13,7 @@ from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.roughness.files import RawMap, checked, read
 from tehl.roughness.files.raw import shown
-from tehl.roughness.map_settings import MapSettings
+from tehl.roughness.map_settings import MapFile, MapSettings, PreparedMap
 from tehl.roughness.model import BEYOND, metres
 from tehl.roughness.prepare import (
     RELATIVE_ROUNDING,
@@ -33,7 +33,7 @@ _LARGEST_SIZE, _LEAST_SPACING, _LARGEST_HEIGHT = 1.0, 1e-10, 1.0
 
 
 @contextmanager
-def _naming(surface: MapSettings) -> Iterator[None]:
+def _naming(surface: MapFile) -> Iterator[None]:
     """Put the name of the file before errors."""
     try:
         yield
@@ -41,7 +41,7 @@ def _naming(surface: MapSettings) -> Iterator[None]:
         raise InputError(f"map {shown(surface.file)} {error}") from None
 
 
-def raw_map(surface: MapSettings) -> RawMap:
+def raw_map(surface: MapFile) -> RawMap:
     """Return the content of the file of a map; errors name the file."""
     path = checked(surface.file)
     with _naming(surface):
@@ -58,7 +58,7 @@ def tile_of(surface: MapSettings) -> Tile:
     return _tile(surface, stamp_of(surface))
 
 
-def stamp_of(surface: MapSettings) -> tuple[int, int]:
+def stamp_of(surface: MapFile) -> tuple[int, int]:
     """Return what changes when a file does: its size and when it was written."""
     state = checked(surface.file).stat()
     return state.st_size, state.st_mtime_ns
@@ -121,7 +121,7 @@ def _highest(heights: Array, factor: float) -> float:
 # ---- units
 
 
-def _factor(surface: MapSettings, raw: RawMap, notes: list[str]) -> float:
+def _factor(surface: MapFile, raw: RawMap, notes: list[str]) -> float:
     """Return the factor from the heights of the file to metres."""
     stated = surface.unit or raw.unit
     if stated is None:
@@ -150,7 +150,7 @@ def _metres(unit: str, what: str, key: str) -> float:
     return factor
 
 
-def _pixel(surface: MapSettings, raw: RawMap, notes: list[str]) -> tuple[float, float]:
+def _pixel(surface: MapFile, raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances of the points of the file [m]."""
     ny, nx = raw.heights.shape
     pixel = surface.pixel
@@ -173,7 +173,7 @@ def _pixel(surface: MapSettings, raw: RawMap, notes: list[str]) -> tuple[float, 
     return pixel
 
 
-def _pixel_of_file(surface: MapSettings, raw: RawMap, notes: list[str]) -> tuple[float, float]:
+def _pixel_of_file(surface: MapFile, raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances that the file has, each in its own unit or both in the one stated."""
     if raw.pixel is None:
         raise InputError(
@@ -198,7 +198,7 @@ def _pixel_of_file(surface: MapSettings, raw: RawMap, notes: list[str]) -> tuple
 # ---- shape
 
 
-def _oriented(surface: MapSettings, values: Array, pixel: tuple[float, float]) -> tuple[Array, Any]:
+def _oriented(surface: PreparedMap, values: Array, pixel: tuple[float, float]) -> tuple[Array, Any]:
     if surface.transpose:
         values, pixel = values.T, (pixel[1], pixel[0])
     values = values[:, ::-1] if surface.flip_x else values
@@ -206,7 +206,7 @@ def _oriented(surface: MapSettings, values: Array, pixel: tuple[float, float]) -
     return -values if surface.upside_down else values, pixel
 
 
-def _cropped(surface: MapSettings, values: Array, pixel: tuple[float, float]) -> Heights:
+def _cropped(surface: PreparedMap, values: Array, pixel: tuple[float, float]) -> Heights:
     values = np.where(np.isfinite(values), values, np.nan)
     if surface.crop is None:
         return Heights(values=values, pixel=pixel, measured=np.isfinite(values))
@@ -229,7 +229,7 @@ def _cropped(surface: MapSettings, values: Array, pixel: tuple[float, float]) ->
 # ---- heights
 
 
-def _whole(surface: MapSettings, heights: Heights, notes: list[str]) -> Heights:
+def _whole(surface: PreparedMap, heights: Heights, notes: list[str]) -> Heights:
     """Return heights without spikes and gaps."""
     values, spikes = heights.values, 0
     gaps = int(np.isnan(values).sum())
@@ -242,7 +242,7 @@ def _whole(surface: MapSettings, heights: Heights, notes: list[str]) -> Heights:
     return replace(heights, values=whole, measured=np.isfinite(values), spikes=spikes)
 
 
-def _filtered(surface: MapSettings, values: Array, heights: Heights, notes: list[str]) -> Array:
+def _filtered(surface: PreparedMap, values: Array, heights: Heights, notes: list[str]) -> Array:
     for key, cut_off in (("lambda_c", surface.lambda_c), ("lambda_s", surface.lambda_s)):
         if cut_off is None:
             continue
@@ -258,7 +258,7 @@ def _filtered(surface: MapSettings, values: Array, heights: Heights, notes: list
     return values
 
 
-def _check_heights(surface: MapSettings, heights: Heights, highest: float) -> None:
+def _check_heights(surface: PreparedMap, heights: Heights, highest: float) -> None:
     """Reject heights that are constant or outside the physical range; ``highest`` in [m]."""
     if not np.ptp(heights.values[heights.measured]) > RELATIVE_ROUNDING * highest:
         raise InputError("is constant: it has no roughness")

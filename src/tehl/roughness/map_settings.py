@@ -30,8 +30,8 @@ class Crop(Table):
         return self
 
 
-class MapSettings(TileModel):
-    """The settings of a map, without the file being read."""
+class MapFile(TileModel):
+    """The file of a map, and how it is read."""
 
     type: Literal["map"] = "map"
     file: str
@@ -51,32 +51,6 @@ class MapSettings(TileModel):
     """What the numbers of a text are."""
     variable: str | None = None
     """Which variable of a NetCDF file, or array of an npz file."""
-    transpose: bool = False
-    flip_x: bool = False
-    flip_y: bool = False
-    upside_down: bool = False
-    """Exchange rows and columns; reverse x or y; take depths as heights."""
-    crop: Crop | None = None
-    """The part to take, after these."""
-    outliers: PositiveNumber | None = None
-    """Standard deviations beyond which spikes become missing points."""
-    fill: Literal["auto", "linear", "nearest", "refuse"] = "auto"
-    """How missing points are filled; "auto" accepts at most 1 % of them."""
-    level: Literal["none", "mean", "plane", "quadratic"] = "plane"
-    """What is taken off."""
-    lambda_c: Wavelength | None = None
-    lambda_s: Wavelength | None = None
-    """Longest and shortest waves that are kept [m], by Gaussian filters."""
-    rotate: Angle = 0.0
-    """Angle by which the rows are turned against x [rad], as the crests of a wave are."""
-    x: Position = 0.0
-    y: Position = 0.0
-    """Where the middle of the map lies at time zero [m]."""
-    outside: Edge = "flat"
-    """What lies beyond the edges."""
-    taper: Height | None = None
-    """Over which heights fall to zero at the edges of a flat surrounding [m]; a tenth of the
-    shorter edge if left out."""
 
     @field_validator("file", mode="after")
     @classmethod
@@ -89,14 +63,58 @@ class MapSettings(TileModel):
         return file if folder is None or known.is_absolute() else str(folder / known)
 
     @model_validator(mode="after")
-    def _must_agree(self) -> Self:
+    def _must_have_one_size(self) -> Self:
         if self.pixel is not None and self.size is not None:
             raise ValueError("pixel and size say the same: give one of them")
-        if self.taper is not None and self.outside != "flat":
-            raise ValueError('taper counts for outside = "flat" only: leave it out')
+        return self
+
+
+class PreparedMap(MapFile):
+    """A map and how its heights are prepared, in the order of the keys."""
+
+    transpose: bool = False
+    flip_x: bool = False
+    flip_y: bool = False
+    upside_down: bool = False
+    """Exchange rows and columns; reverse x or y; take depths as heights."""
+    crop: Crop | None = None
+    """The part to take."""
+    outliers: PositiveNumber | None = None
+    """Standard deviations beyond which spikes become missing points."""
+    fill: Literal["auto", "linear", "nearest", "refuse"] = "auto"
+    """How missing points are filled; "auto" accepts at most 1 % of them."""
+    level: Literal["none", "mean", "plane", "quadratic"] = "plane"
+    """What is taken off."""
+    lambda_c: Wavelength | None = None
+    lambda_s: Wavelength | None = None
+    """Longest and shortest waves that are kept [m], by Gaussian filters."""
+
+    @model_validator(mode="after")
+    def _must_keep_waves(self) -> Self:
         if None not in (self.lambda_s, self.lambda_c) and not self.lambda_s < self.lambda_c:  # type: ignore[operator]
             raise ValueError(
                 f"lambda_s = {self.lambda_s:g} m must be shorter than lambda_c = "
                 f"{self.lambda_c:g} m: what lies between them is kept"
             )
+        return self
+
+
+class MapSettings(PreparedMap):
+    """The settings of a map, without the file being read: its heights, and where they lie."""
+
+    rotate: Angle = 0.0
+    """Angle by which the rows are turned against x [rad], as the crests of a wave are."""
+    x: Position = 0.0
+    y: Position = 0.0
+    """Where the middle of the map lies at time zero [m]."""
+    outside: Edge = "flat"
+    """What lies beyond the edges."""
+    taper: Height | None = None
+    """Over which heights fall to zero at the edges of a flat surrounding [m]; a tenth of the
+    shorter edge if left out."""
+
+    @model_validator(mode="after")
+    def _must_fade_into_a_flat(self) -> Self:
+        if self.taper is not None and self.outside != "flat":
+            raise ValueError('taper counts for outside = "flat" only: leave it out')
         return self

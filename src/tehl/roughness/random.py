@@ -33,29 +33,8 @@ _FIT_BINS, _STARTS, _LARGEST_FIT_ERROR = 4001, (0.0, 1.0, 3.0), 1e-3
 Seed = Annotated[int, Field(strict=True, ge=0, le=2**53)]
 
 
-class Random(TileModel):
-    r"""A random surface with a given spectrum.
-
-    The power spectral density is, with wave numbers :math:`q_u` and :math:`q_v` along and across
-    the lay,
-
-    .. math:: C \sim \exp\{-(q_u^2 l_u^2 + q_v^2 l_v^2)/4\} \quad\text{("gaussian")}
-
-    so that the autocorrelation is :math:`\exp\{-(u/l_u)^2 - (v/l_v)^2\}`, or with
-    :math:`\kappa^2 = (q_u^2 \lambda_u^2 + q_v^2 \lambda_v^2)/4\pi^2`
-
-    .. math:: C \sim 1,\ \kappa < 1; \quad \kappa^{-2(1+H)},\ \kappa \ge 1 \quad
-              \text{("self-affine")}
-
-    up to the cut-off. The surface is defined on its own lattice and repeats: it is the same on
-    every mesh.
-
-    References
-    ----------
-    .. [1] M. C. Jones and A. Pewsey, Sinh-arcsinh distributions, Biometrika 96 (2009), 761-780.
-    .. [2] T. D. B. Jacobs, T. Junge and L. Pastewka, Quantitative characterization of surface
-       topography using spectral analysis, Surf. Topogr.: Metrol. Prop. 5 (2017), 013001.
-    """
+class Spectral(TileModel):
+    """The spectrum of a `Random` surface, and the lattice that resolves it."""
 
     type: Literal["random"] = "random"
     rms: Height
@@ -77,15 +56,6 @@ class Random(TileModel):
     shorter along v as ``roll_off_y`` is."""
     hurst: PositiveNumber = 0.8
     """Hurst exponent H [-]."""
-    angle: Angle = 0.0
-    """By which the lay is turned [rad], as the crests of a wave are."""
-    seed: Seed = 0
-    """The same number gives the same surface."""
-    skewness: Number = 0.0
-    kurtosis: PositiveNumber = 3.0
-    """Ssk and Sku [-]; 0 and 3 is a Gaussian distribution of heights. Others are made by a monotone
-    transformation [1]_ of a Gaussian surface; a period meets them to 1e-3. They change the
-    autocorrelation a little."""
 
     @model_validator(mode="before")
     @classmethod
@@ -105,24 +75,6 @@ class Random(TileModel):
             raise ValueError(f'{needed} is missing: give a length such as "20 um"')
         self._check_lengths(needed)
         check_slope(self.rms, **dict(zip((needed, f"{needed}_y"), self._lengths, strict=True)))
-        return self
-
-    @model_validator(mode="after")
-    def _moments_must_be_possible(self) -> Self:
-        if self.ra is not None and (self.skewness, self.kurtosis) != (0.0, 3.0):
-            raise ValueError("ra holds for Gaussian heights: with skewness or kurtosis state rms")
-        most = math.sqrt((_LARGEST_KURTOSIS - 2.1) / 1.5)
-        if not abs(self.skewness) <= most:
-            raise ValueError(
-                f"skewness = {self.skewness:g} cannot be made: it must lie between -{most:.3g} and "
-                f"{most:.3g}"
-            )
-        least = 2.1 + 1.5 * self.skewness**2
-        if not least <= self.kurtosis <= _LARGEST_KURTOSIS:
-            raise ValueError(
-                f"kurtosis = {self.kurtosis:g} with skewness = {self.skewness:g} cannot be made: "
-                f"it must lie between {least:.3g} and {_LARGEST_KURTOSIS:g}"
-            )
         return self
 
     def _check_lengths(self, needed: str) -> None:
@@ -176,6 +128,89 @@ class Random(TileModel):
         return self.rms == 0
 
     @property
+    def _slopes(self) -> tuple[float, float]:
+        """Return mean square slopes over the mean square height, along u and v [1/m^2]."""
+        if self.is_smooth:
+            return 0.0, 0.0
+        first, second = self._lengths
+        if self.spectrum == "gaussian":
+            return 2.0 / first**2, 2.0 / second**2
+        band, hurst = self._band, self.hurst
+        steep = 2.0 - 2.0 * hurst
+        tail = math.log(band) if steep < 1e-6 else (band**steep - 1.0) / steep
+        variance = 0.5 + (1.0 - band ** (-2.0 * hurst)) / (2.0 * hurst)
+        square = 0.5 * (0.25 + tail) / variance * (2.0 * math.pi) ** 2
+        return square / first**2, square / second**2
+
+    def density(self, along: Array, across: Array) -> Array:
+        """Return the power spectral density, one at zero.
+
+        Parameters
+        ----------
+        along, across : Array
+            Wave numbers along both axes of the lay [rad/m], broadcast against each other.
+        """
+        first, second = self._lengths
+        if self.spectrum == "gaussian":
+            return np.exp(-((along * first) ** 2 + (across * second) ** 2) / 4.0)
+        number = np.hypot(along * first, across * second) / (2.0 * np.pi)
+        falling = np.maximum(number, 1.0) ** (-2.0 * (1.0 + self.hurst))
+        return np.where(number <= self._band, falling, 0.0)
+
+
+class Random(Spectral):
+    r"""A random surface with a given spectrum and distribution of heights.
+
+    The power spectral density is, with wave numbers :math:`q_u` and :math:`q_v` along and across
+    the lay,
+
+    .. math:: C \sim \exp\{-(q_u^2 l_u^2 + q_v^2 l_v^2)/4\} \quad\text{("gaussian")}
+
+    so that the autocorrelation is :math:`\exp\{-(u/l_u)^2 - (v/l_v)^2\}`, or with
+    :math:`\kappa^2 = (q_u^2 \lambda_u^2 + q_v^2 \lambda_v^2)/4\pi^2`
+
+    .. math:: C \sim 1,\ \kappa < 1; \quad \kappa^{-2(1+H)},\ \kappa \ge 1 \quad
+              \text{("self-affine")}
+
+    up to the cut-off [2]_. The surface is defined on its own lattice and repeats: it is the same
+    on every mesh.
+
+    References
+    ----------
+    .. [1] M. C. Jones and A. Pewsey, Sinh-arcsinh distributions, Biometrika 96 (2009), 761-780.
+    .. [2] T. D. B. Jacobs, T. Junge and L. Pastewka, Quantitative characterization of surface
+       topography using spectral analysis, Surf. Topogr.: Metrol. Prop. 5 (2017), 013001.
+    """
+
+    angle: Angle = 0.0
+    """By which the lay is turned [rad], as the crests of a wave are."""
+    seed: Seed = 0
+    """The same number gives the same surface."""
+    skewness: Number = 0.0
+    kurtosis: PositiveNumber = 3.0
+    """Ssk and Sku [-]; 0 and 3 is a Gaussian distribution of heights. Others are made by a monotone
+    transformation [1]_ of a Gaussian surface; a period meets them to 1e-3. They change the
+    autocorrelation a little."""
+
+    @model_validator(mode="after")
+    def _moments_must_be_possible(self) -> Self:
+        if self.ra is not None and (self.skewness, self.kurtosis) != (0.0, 3.0):
+            raise ValueError("ra holds for Gaussian heights: with skewness or kurtosis state rms")
+        most = math.sqrt((_LARGEST_KURTOSIS - 2.1) / 1.5)
+        if not abs(self.skewness) <= most:
+            raise ValueError(
+                f"skewness = {self.skewness:g} cannot be made: it must lie between -{most:.3g} and "
+                f"{most:.3g}"
+            )
+        least = 2.1 + 1.5 * self.skewness**2
+        if not least <= self.kurtosis <= _LARGEST_KURTOSIS:
+            raise ValueError(
+                f"kurtosis = {self.kurtosis:g} with skewness = {self.skewness:g} cannot be made: "
+                f"it must lie between {least:.3g} and {_LARGEST_KURTOSIS:g}"
+            )
+        return self
+
+    @property
     def shortest_wavelengths(self) -> tuple[float, float]:
         """Return the wavelengths 2 pi Sq / Sq' along x and along y [m].
 
@@ -193,21 +228,6 @@ class Random(TileModel):
         return wavelength_of(math.sqrt(max(self._slopes)))
 
     @property
-    def _slopes(self) -> tuple[float, float]:
-        """Return mean square slopes over the mean square height, along u and v [1/m^2]."""
-        if self.is_smooth:
-            return 0.0, 0.0
-        first, second = self._lengths
-        if self.spectrum == "gaussian":
-            return 2.0 / first**2, 2.0 / second**2
-        band, hurst = self._band, self.hurst
-        steep = 2.0 - 2.0 * hurst
-        tail = math.log(band) if steep < 1e-6 else (band**steep - 1.0) / steep
-        variance = 0.5 + (1.0 - band ** (-2.0 * hurst)) / (2.0 * hurst)
-        square = 0.5 * (0.25 + tail) / variance * (2.0 * math.pi) ** 2
-        return square / first**2, square / second**2
-
-    @property
     def _tile(self) -> "Tile":
         return _tile_of(self)
 
@@ -220,21 +240,6 @@ class Random(TileModel):
             f"the random surface repeats after {along:.3g} x {across:.3g} um, within a contact of "
             f"{width * 1e6:.3g} x {length * 1e6:.3g} um: it has very short waves",
         )
-
-    def density(self, along: Array, across: Array) -> Array:
-        """Return the power spectral density, one at zero.
-
-        Parameters
-        ----------
-        along, across : Array
-            Wave numbers along both axes of the lay [rad/m], broadcast against each other.
-        """
-        first, second = self._lengths
-        if self.spectrum == "gaussian":
-            return np.exp(-((along * first) ** 2 + (across * second) ** 2) / 4.0)
-        number = np.hypot(along * first, across * second) / (2.0 * np.pi)
-        falling = np.maximum(number, 1.0) ** (-2.0 * (1.0 + self.hurst))
-        return np.where(number <= self._band, falling, 0.0)
 
 
 @lru_cache(maxsize=4)
