@@ -77,6 +77,7 @@ def study(  # noqa: PLR0913 (the options of the command)
     is finished is kept.
     """
     arguments = locals()
-
-    if not study_job.run(study_job.StudyJob(**arguments)):
+    names = ("table_only", "plots", "sheet", "columns")
+    wanted = study_job.Wanted(**{name: arguments.pop(name) for name in names})
+    if not study_job.run(study_job.StudyJob(**arguments, wanted=wanted)):
         raise Exit(NOT_CONVERGED)

@@ -53,6 +53,34 @@ Written = dict[str, list[str]]
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Wanted:
+    """What is made of the cases that are finished; nothing is solved if any of it is stated."""
+
+    table_only: bool
+    plots: list[str]
+    sheet: Path | None
+    columns: str | None
+
+    @property
+    def is_stated(self) -> bool:
+        """Whether anything of it is stated."""
+        return self.table_only or bool(self.plots) or self.sheet is not None
+
+    def check_sheet(self, source: Path) -> None:
+        """Check that the sheet, if any, can be written, and is not the study in ``source``."""
+        if self.sheet is not None:
+            check_sheet(self.sheet)
+            check_writable(self.sheet, sources=(source,))
+        elif self.columns is not None:
+            raise InputError("--columns chooses those of a sheet: give --sheet FILE.csv or .xlsx")
+
+    @property
+    def chosen_columns(self) -> list[str]:
+        """Columns of the sheet, all if none are stated."""
+        return [part.strip() for part in (self.columns or "").split(",") if part.strip()]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class StudyJob:
     """Arguments of the command."""
 
@@ -64,10 +92,7 @@ class StudyJob:
     dry_run: bool
     retry_failed: bool
     replace: bool
-    table_only: bool
-    plots: list[str]
-    sheet: Path | None
-    columns: str | None
+    wanted: Wanted
     yes: bool
     as_json: bool
     quiet: bool
@@ -79,21 +104,21 @@ def run(job: StudyJob) -> bool:
     Invalid study, folder or arguments are an InputError before anything is solved; a folder in use
     or not writable, or workers that do not start, an OSError, and finished cases are kept.
     """
-    workers, pictures = number_of_workers(job.jobs), [picture_of(words) for words in job.plots]
-    _check_sheet(job)
+    workers = number_of_workers(job.jobs)
+    pictures = [picture_of(words) for words in job.wanted.plots]
+    job.wanted.check_sheet(job.source)
     plan, folder = _plan(job)
     _check_folder(folder, job.source)
     try:
         study = study_of(plan)
     except InputError as error:
         raise InputError(f"{shortened(job.source)}: {error}") from None
-    show_only = job.table_only or bool(pictures) or job.sheet is not None
-    if show_only or not job.replace:
+    if job.wanted.is_stated or not job.replace:
         check_same(plan, folder)
     if job.dry_run:
         _show_forecast(study, folder, workers, as_json=job.as_json)
         return True
-    if show_only:
+    if job.wanted.is_stated:
         return _show_finished(study, folder, pictures, job)
     with locked(folder):
         outcome = _solved(study, folder, workers, job)
@@ -114,19 +139,6 @@ def number_of_workers(jobs: str | None) -> int:
         return number
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return max(1, cores or 1)
-
-
-def _check_sheet(job: StudyJob) -> None:
-    if job.sheet is None:
-        if job.columns is not None:
-            raise InputError("--columns chooses those of a sheet: give --sheet FILE.csv or .xlsx")
-        return
-    check_sheet(job.sheet)
-    check_writable(job.sheet, sources=(job.source,))
-
-
-def _columns(job: StudyJob) -> list[str]:
-    return [part.strip() for part in (job.columns or "").split(",") if part.strip()]
 
 
 def _plan(job: StudyJob) -> tuple[Plan, Path]:
@@ -236,16 +248,16 @@ def _show_finished(study: Study, folder: Path, pictures: list[Picture], job: Stu
         raise InputError(f"no case of the study is finished yet in {folder}")
     check_can_write(folder)
     files = [str(save(one, frame, folder)) for one in pictures]
-    if job.sheet is not None:
-        write_sheet(frame, job.sheet, _columns(job))
-        files.append(str(job.sheet))
-    if job.table_only:
+    if (sheet := job.wanted.sheet) is not None:
+        write_sheet(frame, sheet, job.wanted.chosen_columns)
+        files.append(str(sheet))
+    if job.wanted.table_only:
         written = _write(frame, folder, study.plan.pictures)
         files += [*written["table"], *written["pictures"]]
     counts = {str(key): int(n) for key, n in frame["status"].value_counts().items()}
     found = {"cases": len(frame), "status": counts, "files": files}
     typer.echo(json.dumps(found) if job.as_json else "\n".join(files))
-    return not (job.table_only and counts.keys() - {"converged", OPEN})
+    return not (job.wanted.table_only and counts.keys() - {"converged", OPEN})
 
 
 def _show_forecast(study: Study, folder: Path, workers: int, *, as_json: bool) -> None:

@@ -157,7 +157,7 @@ class TabPage:
     def _hear(self, topic: str) -> None:
         """Put the state into the address once no slider moves any more."""
         if topic == "picture":
-            self.hold.set_value(self.tab.held)
+            self.hold.set_value(self.tab.scales.held)
             compares = self.tab.pinned is not None
             self.unpin.set_visibility(compares)
             mark(self.middle, "comparing", on=compares)

@@ -194,17 +194,17 @@ class PicturePanel:
         self.present.title.set_visibility(beside)
         self.below.set_content("")
         if pinned is None:
-            self.present.draw(view, shown, tab.limits, self.size)
+            self.present.draw(view, shown, tab.scales.limits, self.size)
             return
         present, other = _seen_in(shown, pinned.shown), _seen_in(pinned.shown, shown)
         if view == "lines":
-            self.present.draw(view, present, tab.limits, self.size, other)
+            self.present.draw(view, present, tab.scales.limits, self.size, other)
             return
         self._draw_beside(view, present, other)
 
     def _draw_beside(self, view: str, present: Shown, other: Shown) -> None:
         """Draw two states side by side, above their centre lines along x."""
-        (width, height), limits = self.size, self.tab.limits
+        (width, height), limits = self.size, self.tab.scales.limits
         wide = width > _LEAST_WIDTH
         bar = _BAR if view in ("film", "pressure") else 0.0
         less, more = bar, 0.0  # both maps are of one size, and one has a colour bar

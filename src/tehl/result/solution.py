@@ -171,7 +171,7 @@ class Supplied:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Account:
-    """How a solve went: outcome, cycles, errors, cost."""
+    """How a solve went: outcome, cycles, errors, heights that the grid resolves, cost."""
 
     status: Status
     """How it ended."""
@@ -182,6 +182,8 @@ class Account:
     cost: Cost
     provenance: Provenance
     """Computing cost and origin."""
+    resolution: Resolution | None = None
+    """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
     uncertainty: dict[str, Estimate] = field(default_factory=dict)
     """Of a certified result, dimensionless as the solver has them, rises in kelvin; ``certified``
     has them in SI."""
@@ -215,8 +217,6 @@ class Extras:
     """Stress below the surfaces; None if the case does not ask for it."""
     dynamics: FilmDynamics | None = None
     """Stiffness and damping; None unless the case states ``[dynamics]``."""
-    resolution: Resolution | None = None
-    """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
 
 
 class _Of(Generic[Value]):
@@ -285,6 +285,7 @@ class Solution:
     errors = _Of[ErrorEstimate | None]("account")
     cost = _Of[Cost]("account")
     provenance = _Of[Provenance]("account")
+    resolution = _Of[Resolution | None]("account")
     uncertainty = _Of[dict[str, Estimate]]("account")
     shear = _Of[FilmShear | None]("extras")
     heat = _Of[FilmHeat | None]("extras")
@@ -298,7 +299,6 @@ class Solution:
     passes = _Of[PassHistory | None]("extras")
     stress = _Of[BodyStress | None]("extras")
     dynamics = _Of[FilmDynamics | None]("extras")
-    resolution = _Of[Resolution | None]("extras")
 
     @property
     def certified(self) -> dict[str, Estimate]:

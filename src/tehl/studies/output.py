@@ -27,18 +27,21 @@ else:
     table_columns = lazy("tehl.plots.table_columns")
 
 Range = tuple[float, float]
-_KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file", "format", "title")
-"""What ``--plot`` can state."""
 
 
-class Picture(Table):
-    """Curves over a column of the table, or a map over two; the user guide explains the keys."""
+class Columns(Table):
+    """Columns of the table that a picture shows."""
 
     x: str | None = None
     y: str | None = None
     z: str | None = None
     hue: str | None = None
     style: str | None = None
+
+
+class Picture(Columns):
+    """Curves over a column of the table, or a map over two; the user guide explains the keys."""
+
     log: Literal["", "x", "y", "xy"] = ""
     x_range: Range | None = None
     y_range: Range | None = None
@@ -68,7 +71,7 @@ def picture_of(words: str) -> Picture:
     stated = {}
     for part in (words if "=" in words else f"map={words}").split(","):
         key, _, value = (piece.strip() for piece in part.partition("="))
-        if not value or key not in _KEYS:
+        if not value or key not in Picture.model_fields or key.endswith("_range"):
             raise InputError(
                 f'"{part}" is not part of a picture: give x=COLUMN,y=COLUMN, and optionally '
                 "hue=COLUMN, style=COLUMN, z=COLUMN, log=x, y or xy, overlay=FILE.csv"
@@ -103,7 +106,7 @@ def checked_pictures(
     different = tuple(dict.fromkeys(pictures))
     for picture in different:
         number, file = pictures.index(picture) + 1, picture.file_name
-        for key in ("x", "y", "z", "hue", "style"):
+        for key in Columns.model_fields:
             name = getattr(picture, key)
             missing = None if name is None else missing_column(labels, name)
             if missing is not None:
