@@ -11,6 +11,7 @@ import numpy as np
 
 from benchmarks.random_contacts import CREDIBLE, LARGEST_SLIDE, between, heights, oil
 from tehl.api.problem import ContactProblem
+from tehl.estimate.duration import duration_of, misplaced
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import ScaledProblem
 
@@ -90,6 +91,9 @@ def contact(
         except ValueError:
             continue
         if not CREDIBLE[0] <= problem.entrainment_speed <= CREDIBLE[1]:
+            continue
+        scaled = ScaledProblem.of(problem)
+        if misplaced(scaled, duration_of(scaled)):
             continue
         return kind, features, problem
 
@@ -173,7 +177,10 @@ def _add(
     }
     tables |= {name: table for name, table in made.items() if name in features}
     if "rough" in features:
-        tables["surface_2"]["roughness"] = heights(rng, bare)
+        tables["surface_2"]["roughness"] = rough = heights(rng, bare)
+        if rough["type"] == "bump" and "transient" in features:
+            # it is drawn inside the contact, where none may appear beside the film without it
+            tables["transient"]["start"] = "standing"
 
 
 def _transient(rng: np.random.Generator, scaled: ScaledProblem) -> dict[str, Any]:

@@ -6,6 +6,8 @@ from benchmarks.machines import KINDS, contact, judged, reached, row
 import tehl
 from benchmarks import any_contacts
 from tehl.contact.options import Options
+from tehl.estimate.duration import duration_of, misplaced
+from tehl.estimate.scaling import ScaledProblem
 
 
 def test_every_contact_is_a_valid_case_and_the_same_each_time():
@@ -52,6 +54,15 @@ def test_point_contacts_with_all_tables_at_once_have_each_beside_each_other():
     both = [one for _, one in drawn if one.contact_film is not None and one.thermal is not None]
     assert both
     assert any(one.conserves_oil for _, one in drawn)
+
+
+def test_roughness_of_random_transient_contacts_may_start_where_it_is_drawn():
+    starts = []
+    for number in (0, 4, 24, 26):  # bumps that were in the contact at time zero, or beside it
+        scaled = ScaledProblem.of(any_contacts.contact(57, number, tables_at_once=True)[2])
+        assert misplaced(scaled, duration_of(scaled)) is None
+        starts.append(scaled.problem.transient and scaled.problem.transient.start)
+    assert starts[:2] == ["standing"] * 2
 
 
 def test_a_starved_cam_whose_flux_errs_at_the_spike_reaches_its_error():
