@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from benchmarks import any_contacts
 from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.api.solvers import solve
@@ -220,3 +221,12 @@ def test_surfaces_that_slide_across_leave_their_heat_beside_the_contact():
     first, second = (heat.temperature[layer] - 313.15 for layer in (0, -1))
     assert first[upper:].sum() > 1.2 * first[: upper - 1].sum()
     np.testing.assert_allclose(first[::-1], second, atol=1e-3 * first.max())
+
+
+def test_surfaces_that_spin_warm_where_paths_through_the_inlet_are_long():
+    # sweeps that took their temperature from the last fluxes doubled each change of it
+    _, features, problem = any_contacts.contact(3, 4, tables_at_once=True)
+    assert {"spin", "thermal"} <= features
+    found = solve(problem, Options(points=65))
+    assert found.scaled.film.shape == (65, 65)
+    assert found.history[-1].temperature_rise == pytest.approx(4.3, abs=0.2)  # 4.34 on 129 nodes

@@ -5,7 +5,7 @@ equation carries along (`tehl.operators.line_source`). At moderate ones it carri
 what the full source adds follows after each sweep. A surface that is slow, at rest or runs against
 x has no line to march along: its temperature is a given field during a sweep, and is found
 afterwards together with the flux that changes with it, since the film conducts far better than the
-solid beneath.
+solid beneath. So is that of a surface whose points leave the lines along x.
 """
 
 from dataclasses import dataclass
@@ -30,6 +30,11 @@ COARSENED_FROM = 128
 """Intervals from which the full source is summed on every second node: its field is smooth."""
 SURFACE_TOLERANCE, SURFACE_ITERATIONS = 0.02, 30
 """Of the coupled surface temperatures after each sweep; the next sweep improves them again."""
+STREAM_ITERATIONS = 4
+"""The same where a surface is heated along paths that turn, as a product follows them from station
+to station. Ten take more time and as many sweeps; without any, the temperature of a surface that
+spins diverges in the thick film of the inlet, which conducts well along paths longer than those of
+the march."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -268,9 +273,10 @@ class Solids:
                 continue
             wanted = side.bulk + (source.rise(coarse[number]) if source else 0.0)
             wanted = wanted + self._turned(number, coarse[number])
-            if side.marches:
+            if side.marches and not self.streams[number]:
                 walls[number][:] = self._fine(wanted) + self.rises[number]
             else:
+                wanted = wanted + self._coarse(self.rises[number])
                 misfits[number] = wanted - self._coarse(walls[number])
         if any(misfit is not None for misfit in misfits):
             changes = self._coupled(self._coarse(conductance), misfits)
@@ -290,29 +296,42 @@ class Solids:
         return np.asarray(turned - marched).T
 
     def _coupled(self, conductance: Array, misfits: list[Array | None]) -> dict[int, Array]:
-        """Return changes of the given surface temperatures that leave no misfit, to first order.
+        """Return changes of the given parts of the surfaces that leave no misfit, to first order.
 
         A warmer surface takes less heat, by the conductance of the film, and the other one more.
+        With conductance G, response S to the flux and part L of it that the march carries, a misfit
+        m of the given part changes the temperature by (1 + S G)^-1 m, and the given part by 1 + L G
+        times this.
         """
         given = [number for number in range(2) if misfits[number] is not None]
         shape = conductance.shape
+
+        def less(change: dict[int, Array], number: int) -> Array:
+            return conductance * (change[number] - change.get(1 - number, 0.0))
 
         def respond(vector: Array) -> Array:
             change = dict(zip(given, vector.reshape(len(given), *shape), strict=True))
             parts = []
             for number in given:
-                less = conductance * (change[number] - change.get(1 - number, 0.0))
-                source = self.sources[number]
-                parts.append(change[number] + (source.rise(less) if source else 0.0))
+                flux, source = less(change, number), self.sources[number]
+                lost = (source.rise(flux) if source else 0.0) + self._turned(number, flux)
+                parts.append(change[number] + lost + self._marched(number, flux))
             return np.concatenate([part.ravel() for part in parts])
 
         right = np.concatenate([m.ravel() for m in misfits if m is not None])
         size = right.size
         operator = LinearOperator((size, size), matvec=respond, dtype=np.float64)
-        solution, _ = gmres(
-            operator, right, rtol=SURFACE_TOLERANCE, restart=SURFACE_ITERATIONS, maxiter=1
-        )
-        return dict(zip(given, solution.reshape(len(given), *shape), strict=True))
+        streams = any(self.streams[number] for number in given)
+        most = STREAM_ITERATIONS if streams else SURFACE_ITERATIONS
+        solution, _ = gmres(operator, right, rtol=SURFACE_TOLERANCE, restart=most, maxiter=1)
+        change = dict(zip(given, solution.reshape(len(given), *shape), strict=True))
+        return {n: one + self._marched(n, less(change, n)) for n, one in change.items()}
+
+    def _marched(self, number: int, flux: Array) -> Array:
+        """Return the rise of a surface by the line that the sweep carries along, y first [K]."""
+        factor, slow = self.factors[number], self.slowness[number][:: self.stride]
+        spacing = self.stride * self.spacing
+        return np.asarray(factor * slow * line_rise(flux.T, spacing)).T if factor else 0.0 * flux
 
     def _coarse(self, field: Array) -> Array:
         """Return every ``stride``-th node of a field with y last, with y first, on uniform rows."""
