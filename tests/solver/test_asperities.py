@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from benchmarks import any_contacts
 from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import ConvergenceError, Result, load
 from tehl.api.solvers import certify, solve, solve_transient
@@ -680,6 +681,13 @@ def test_the_regime_follows_the_share_of_the_load_where_asperities_are_computed(
 
 def percent(part):
     return f"{float(f'{100 * part:.3g}'):g} %"
+
+
+def test_cycles_go_on_until_the_oil_between_asperities_balances():
+    _, features, problem = any_contacts.contact(57, 31, tables_at_once=True)
+    assert {"asperities", "spin"} <= features
+    found = solve(problem, Options(error=0.02))
+    assert found.load_sharing.balance < 0.05  # 2.4 after the cycles that the film takes
 
 
 def test_asperities_whose_oil_does_not_balance_fail_by_name(monkeypatch):

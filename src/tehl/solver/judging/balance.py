@@ -1,7 +1,7 @@
 """Whether oil is balanced: criteria of the iteration beside the change of the film.
 
 Each physics that may make or lose oil has its own: menisci must rest and sections pass the same
-oil, films between surfaces that touch lose none, and tight solves between asperities neither.
+oil, films between surfaces that touch lose none, and those between asperities neither.
 """
 
 import numpy as np
@@ -27,6 +27,11 @@ and residual from which Newton steps end if they gain no more."""
 CYCLE_MASS_ERROR = 0.01
 """The same where surfaces touch and cycles end at the error of the grid."""
 
+LARGEST_MISSING_OIL = 0.05
+"""Largest mass-balance error of a film that shares its load, over the oil that enters: it errs
+about as much. Between asperities cycles go on until then: where the inlet conducts well, the oil
+may take one more than the film (M = 920, a_y/a_x = 4.3 and spin, on 161 nodes: 240 % after two)."""
+
 
 class Balance:
     """Errors of the oil balance on the present grid.
@@ -47,7 +52,7 @@ class Balance:
         if is_coupled:
             self.largest = max(self.largest, options.tolerance)
         self.is_settled = True  # the meniscus is stationary, and sections pass the same oil
-        self.is_kept = True  # a tight solve with asperities neither makes nor loses oil
+        self.is_kept = True  # a film between asperities neither makes nor loses oil
         self.oil_error = 0.0  # relative change of the flux between sections
         self.mass_error = np.inf  # between surfaces that may touch
 
@@ -80,5 +85,6 @@ class Balance:
             before, self.mass_error = self.mass_error, contact_balance(level)
             rounded = report.residual <= ROUNDING_RESIDUAL and self.mass_error > 0.5 * before
             self.is_settled = self.mass_error <= self.largest or rounded
-        if level.share.is_steep and self.is_tight:
-            self.is_kept = not finest or asperity_balance(level) <= LARGEST_MASS_ERROR
+        if level.share.is_steep and finest:
+            most = LARGEST_MASS_ERROR if self.is_tight else LARGEST_MISSING_OIL
+            self.is_kept = asperity_balance(level) <= most

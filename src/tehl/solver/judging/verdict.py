@@ -19,6 +19,7 @@ from tehl.result.bars import ErrorEstimate
 from tehl.result.solution import Hint, Status
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
+from tehl.solver.judging.balance import LARGEST_MISSING_OIL
 from tehl.solver.judging.convergence import LARGEST_LOAD_ERROR
 from tehl.solver.judging.diagnosis import (
     LESS_ROUGH,
@@ -58,8 +59,6 @@ STARVED = 0.9
 """Film over fully flooded film below which an edge is too close."""
 LARGEST_COOLING = 5.0
 """Largest temperature of a film below that of all that enters it and expands adiabatically [K]."""
-LARGEST_MISSING_OIL = 0.05
-"""Largest mass-balance error of the film, over the oil that enters: the film errs about as much."""
 LARGEST_MISSING_HEAT = 0.3
 """Largest error of the heat balance over the heat that is turned over. In pure rolling, with little
 heat, the backflow in the inlet stores some for many sweeps."""
