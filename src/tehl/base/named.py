@@ -181,13 +181,6 @@ def config_folder() -> Path:
     return Path(os.environ.get("XDG_CONFIG_HOME") or home / ".config") / "tehl"
 
 
-def toml_value(value: object) -> str:
-    """Return a value as TOML, tables in one line."""
-    if isinstance(value, Mapping):
-        return f"{{ {', '.join(f'{key} = {toml_value(one)}' for key, one in value.items())} }}"
-    return json.dumps(value, ensure_ascii=False)
-
-
 @cache
 def _read(path: Path) -> dict[str, Named]:
     return _entries(path)

@@ -9,7 +9,6 @@ if TYPE_CHECKING:
     from tehl.api import problem as problems
     from tehl.api import results, solvers
     from tehl.base import mistakes, units
-    from tehl.base import named as libraries
     from tehl.contact import materials as solid_library
     from tehl.contact import options as numerics
     from tehl.estimate import scaling
@@ -39,7 +38,6 @@ else:
     solvers = lazy("tehl.api.solvers")
     mistakes = lazy("tehl.base.mistakes")
     units = lazy("tehl.base.units")
-    libraries = lazy("tehl.base.named")
     numerics = lazy("tehl.contact.options")
     solid_library = lazy("tehl.contact.materials")
     scaling = lazy("tehl.estimate.scaling")

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, Option, echo
 
 from tehl.base.errors import InputError
+from tehl.base.wording import aligned, toml_value
 from tehl.cli.arguments import AsJson
-from tehl.cli.lazily import libraries, oil_laws, oil_library, solid_library
+from tehl.cli.lazily import oil_laws, oil_library, solid_library
 from tehl.cli.lines import show
 
 if TYPE_CHECKING:
@@ -91,9 +92,7 @@ def _list(kept: "list[Named]", row: Any, heading: tuple[str, ...]) -> str:
     """Return one line per entry, in columns."""
     rows = [("name", "family", *heading)]
     rows += [(one.table["name"], one.family, *row(one)) for one in kept]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    padded = ("  ".join(map(str.ljust, one, widths)).rstrip() for one in rows)
-    return "\n".join(padded)
+    return "\n".join(aligned(rows))
 
 
 def _text(one: "Named") -> str:
@@ -130,5 +129,5 @@ def _numbers(table: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, st
 def _toml(library: "Library", one: "Named") -> str:
     """Return the entry as a table of a case file."""
     where = "lubricant" if library.kind == "oil" else "surface_1.material"
-    lines = (f"{key} = {libraries.toml_value(value)}" for key, value in one.table.items())
+    lines = (f"{key} = {toml_value(value)}" for key, value in one.table.items())
     return "\n".join([f"[{where}]", *lines])

@@ -5,7 +5,6 @@ from functools import partial
 from tehl.api.results import Result, TransientResult
 from tehl.cli.lazily import explanations
 from tehl.cli.reference_runs import Comparisons
-from tehl.io.summary import estimates
 from tehl.post.film import no_film
 from tehl.post.heat import work_error
 from tehl.post.traction import LARGEST_CREDIBLE
@@ -57,7 +56,7 @@ def failure_text(status: Status, reason: str | None) -> str:
 
 def _bar(result: Result | TransientResult, name: str) -> str:
     """Return the error bar of a certified value, else the estimated error if known."""
-    estimate = estimates(result).get(name)
+    estimate = result.certified.get(name)
     if estimate is not None:
         one = named(name)
         words = one.words.get("bar")

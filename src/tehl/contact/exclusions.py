@@ -149,7 +149,7 @@ def check_stress(problem: PointContact) -> None:
             "earlier times, and the fluxes of these are not kept"
         )
     for body in stress.bodies:
-        if (problem.surface_1, problem.surface_2)[body - 1].material.expansion is None:
+        if problem.surfaces[body - 1].material.expansion is None:
             raise ValueError(
                 f"surface_{body}.material.expansion is missing, which stress.thermal needs: give "
                 f"{quantity(SolidExpansion).name} such as {quantity(SolidExpansion).example}"

@@ -9,7 +9,7 @@ from tehl.base.table import Table
 from tehl.contact.bodies import Motion, Radii, reduced_radii, reduced_radius
 from tehl.contact.boundary_contact import ContactFilm
 from tehl.contact.dynamics import Dynamics
-from tehl.contact.heat import FilmEnergy, Thermal
+from tehl.contact.heat import FilmEnergy, Thermal, rubbing_parts
 from tehl.contact.hertz import HertzContact
 from tehl.contact.materials import reduced_modulus
 from tehl.contact.roller import Roller
@@ -45,6 +45,11 @@ class LubricatedPair(Table):
     """A named oil or its laws."""
     thermal: Thermal | None = None
     """Settings of the heat; None is an isothermal film."""
+
+    @property
+    def surfaces(self) -> tuple[Surface, Surface]:
+        """Return both bodies."""
+        return self.surface_1, self.surface_2
 
     @property
     def radii(self) -> Radii:
@@ -147,8 +152,7 @@ class LubricatedPair(Table):
     @property
     def computes_bodies(self) -> bool:
         """Whether the temperature of a body follows from its heat."""
-        surfaces = (self.surface_1, self.surface_2)
-        return any(one.thermal_resistance is not None or one.cooling for one in surfaces)
+        return any(one.thermal_resistance is not None or one.cooling for one in self.surfaces)
 
     def with_bodies(self, first: float | None, second: float | None) -> Self:
         """Return the same contact between bodies of stated temperatures.
@@ -241,11 +245,24 @@ class LubricatedPair(Table):
     def solid_peclet(self) -> tuple[float | None, float | None]:
         """Return ``u_s a_x / (2 diffusivity)`` of both solids [-], signed; None if not stated."""
         motion, half_width = self.motion, 0.5 * self.hertz.half_width_x
-        first, second = (one.material.diffusivity for one in (self.surface_1, self.surface_2))
+        first, second = (one.material.diffusivity for one in self.surfaces)
         return (
             None if first is None else motion.speed_1 * half_width / first,
             None if second is None else motion.speed_2 * half_width / second,
         )
+
+    @property
+    def rubbing_parts(self) -> tuple[float, float]:
+        """Return the parts of the heat of rubbing that both solids take [-]."""
+        conductivities = [one.material.conductivity or 0.0 for one in self.surfaces]
+        return rubbing_parts(conductivities, self.solid_peclet)
+
+    @property
+    def shortest_wavelengths(self) -> tuple[float, float]:
+        """Return the shortest waves of both surfaces along x and along y [m]."""
+        waves = (one.roughness.shortest_wavelengths for one in self.surfaces)
+        along, across = (min(pair) for pair in zip(*waves, strict=True))
+        return along, across
 
     @property
     def rms_roughness(self) -> float:
@@ -255,7 +272,7 @@ class LubricatedPair(Table):
     @property
     def is_rough(self) -> bool:
         """Whether a surface has heights."""
-        return not (self.surface_1.roughness.is_smooth and self.surface_2.roughness.is_smooth)
+        return not all(one.roughness.is_smooth for one in self.surfaces)
 
 
 class PointContact(LubricatedPair):

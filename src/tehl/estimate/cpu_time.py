@@ -174,11 +174,9 @@ def _grids(scaled: ScaledProblem, plan: Options) -> list[Grid]:
 
 def _has_heights(scaled: ScaledProblem, grid: Grid) -> bool:
     """Return whether a grid is fine enough for the heights."""
-    problem, scales = scaled.problem, scaled.scales
-    waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
-    along = min(wave[0] for wave in waves) / (grid.dx * scales.half_width_x)
-    across = min(wave[1] for wave in waves) / (grid.dy * scales.half_width_y)
-    return min(along, across) >= NODES_PER_RESOLVED_WAVE
+    (along, across), scales = scaled.problem.shortest_wavelengths, scaled.scales
+    nodes = along / (grid.dx * scales.half_width_x), across / (grid.dy * scales.half_width_y)
+    return min(nodes) >= NODES_PER_RESOLVED_WAVE
 
 
 def _seconds_per_node(problem: ContactProblem) -> float:

@@ -106,8 +106,7 @@ def parts_of(scaled: ScaledProblem) -> Iterator[Part]:
 
 def components(roughness: OneRoughness | Sum) -> tuple[OneRoughness, ...]:
     """Return the rough terms of a sum of surfaces."""
-    parts = roughness.parts if isinstance(roughness, Sum) else (roughness,)
-    return tuple(part for part in parts if not part.is_smooth)
+    return tuple(part for part in roughness.summands if not part.is_smooth)
 
 
 def misplaced(scaled: ScaledProblem, seconds: float) -> str | None:

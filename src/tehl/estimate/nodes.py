@@ -173,9 +173,9 @@ def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> tuple[float, float
     They are `ROUGH_NODES` at most, and alike, but for lines and pieces of rollers.
     """
     problem, scales = scaled.problem, scaled.scales
-    waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
-    along = (domain.x[1] - domain.x[0]) * scales.half_width_x / min(wave[0] for wave in waves)
-    across = (domain.y[1] - domain.y[0]) * scales.half_width_y / min(wave[1] for wave in waves)
+    along, across = problem.shortest_wavelengths
+    along = (domain.x[1] - domain.x[0]) * scales.half_width_x / along
+    across = (domain.y[1] - domain.y[0]) * scales.half_width_y / across
     if problem.contact.is_line:
         return min(WAVE_NODES * along, LINE_ROUGH_NODES), 0.0
     if scaled.groups.shape.as_line:

@@ -168,7 +168,7 @@ def drifting_waves(problem: ContactProblem) -> Iterator[tuple[WaveVector, float]
     """
     motion = problem.motion
     speeds = (0.0, 0.0) if problem.transient is None else (motion.speed_1, motion.speed_2)
-    for surface, speed in zip((problem.surface_1, problem.surface_2), speeds, strict=True):
+    for surface, speed in zip(problem.surfaces, speeds, strict=True):
         for wave in waves_of(surface.roughness):
             yield wave, speed - motion.entrainment_speed
 

@@ -17,7 +17,7 @@ from tehl.base.typing import Array
 from tehl.contact.hertz import axes_of
 from tehl.explore.axes import Frame, Picture, Scale, number_text, svg, text, ticks, turned
 from tehl.explore.shown import Deep, Maps, Section, Shown, Span
-from tehl.plots.frame import stretched_label
+from tehl.plots.frame import film_span, stretched_label
 
 _LEFT_MARGIN, _RIGHT_MARGIN, _TOP_MARGIN, _BOTTOM_MARGIN, _BARE_MARGIN = (
     58.0,
@@ -67,12 +67,8 @@ class Look:
 
 def film_limits(maps: Maps) -> Limits:
     """Return the colours of a film: from just below its minimum to 1.6 times the centre."""
-    positive = maps.film[maps.film > 0]
-    central = maps.central
-    if not central > 0:
-        central = float(np.median(positive)) if positive.size else 1.0
-    low = float(positive.min()) if positive.size else 0.1 * central
-    return Limits(0.95 * min(max(low, 0.02 * central), 0.95 * central), 1.6 * central, True)
+    low, central = film_span(maps.film, maps.central)
+    return Limits(0.95 * low, 1.6 * central, True)
 
 
 def pressure_limits(maps: Maps) -> Limits:

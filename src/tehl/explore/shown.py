@@ -7,9 +7,18 @@ import numpy as np
 from tehl.api.results import Result
 from tehl.base.typing import Array
 from tehl.explore.numbers import Number, numbers
-from tehl.plots.frame import WINDOW, pressure_top, span_part, stretched, window, window_part
+from tehl.plots.frame import (
+    WINDOW,
+    minimum_places,
+    pressure_top,
+    span_part,
+    stretched,
+    window,
+    window_part,
+)
 from tehl.plots.interferogram import Optics, colours
 from tehl.plots.stress import DEEPEST_SHOWN, finer
+from tehl.post.film import Profile, profile_x, profile_y
 from tehl.post.stress.influence import COMPONENTS
 from tehl.post.stress.measures import largest_shear
 from tehl.report.explain import Explanation
@@ -182,7 +191,7 @@ def maps_of(result: Result) -> Maps:
         pressure=_single(result.pressure[rows, columns] * 1e-9),
         central=result.film.central * 1e9,
         top=pressure_top(result) * 1e-9,
-        minimum=_minimum(result, half),
+        minimum=tuple((x * half[0], y * half[1]) for x, y in minimum_places(result)),
         skew=result.groups.skew,
     )
 
@@ -212,34 +221,29 @@ def _single(field: Array) -> Array:
     return np.nan_to_num(field, nan=0.0, posinf=0.0, neginf=0.0).astype(np.float32)
 
 
-def _minimum(result: Result, half: tuple[float, float]) -> tuple[tuple[float, float], ...]:
-    if not result.film.minimum > 0:
-        return ()
-    x, y = result.film_scaled.minimum_at
-    film = result.scaled.film
-    mirrored = y != 0.0 and np.allclose(film, film[::-1], equal_nan=True)
-    return tuple((x * half[0], side * half[1]) for side in ((y, -y) if mirrored else (y,)))
-
-
 def _lines(result: Result) -> Lines:
     """Return film and pressure on the grid lines nearest to y = 0 and x = 0."""
-    scaled, hertz = result.scaled, result.scales.hertz_pressure * 1e-9
-    row, column = (int(np.argmin(np.abs(axis))) for axis in (scaled.y, scaled.x))
-    film, pressure = result.film_thickness * 1e9, result.pressure * 1e-9
-    x, y = (span_part(*one) for one in zip((scaled.x, scaled.y), window(result), strict=True))
+    along, across = window(result)
+    x = profile_x(result)
+    if not result.problem.contact.is_line:
+        return Lines(x=_line(x, along), y=_line(profile_y(result), across))
+    edges = STRIP * result.scales.half_width_x * 1e6 * np.array([-1.0, 1.0])
+    middle = slice(result.scaled.centre[1], result.scaled.centre[1] + 1)
+    _, *same = _part(x, middle)  # at all y
+    film, pressure, hertz = (np.repeat(one, 2) for one in same)
+    return Lines(x=_line(x, along), y=(edges, film, pressure, hertz))
 
-    def line(place: Array, along: Array, fields: tuple[Array, Array]) -> Line:
-        dry = hertz * result.groups.shape.dry_pressure(along, np.zeros(1))
-        return place * 1e6, _single(fields[0]), _single(fields[1]), dry
 
-    along = line(result.x[x], scaled.x[x], (film[row, x], pressure[row, x]))
-    if result.problem.contact.is_line:  # the same at all y
-        edges = STRIP * result.scales.half_width_x * np.array([-1.0, 1.0])
-        middle = tuple(np.repeat(field[row, column], 2) for field in (film, pressure))
-        return Lines(x=along, y=line(edges, np.zeros(2), (middle[0], middle[1])))
-    return Lines(
-        x=along,
-        y=line(result.y[y], scaled.y[y], (film[y, column], pressure[y, column])),
+def _line(profile: Profile, span: Span) -> Line:
+    return _part(profile, span_part(profile.scaled_coordinate, span))
+
+
+def _part(profile: Profile, part: slice) -> Line:
+    return (
+        profile.coordinate[part] * 1e6,
+        _single(profile.film_thickness[part] * 1e9),
+        _single(profile.pressure[part] * 1e-9),
+        profile.hertz_pressure[part] * 1e-9,
     )
 
 
@@ -249,7 +253,7 @@ def _section(result: Result) -> Section | None:
         return None
     from scipy.interpolate import CubicSpline  # noqa: PLC0415 (0.3 s, for heated films only)
 
-    row = int(np.argmin(np.abs(result.scaled.y)))
+    row = result.scaled.centre[0]
     columns = span_part(result.scaled.x, window(result)[0])
     inlet = result.scales.temperature
     rise = np.nan_to_num(heat.temperature[:, row, columns] - inlet)

@@ -14,7 +14,7 @@ from tehl.base.errors import FileFormatError, InputError
 from tehl.base.version import SOLVER_VERSION, __version__
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
-from tehl.roughness import Map, Sum
+from tehl.roughness import Map
 
 _LABEL, _LAYOUT = "tehl_checkpoint", 4
 """Array that marks such a file; version, to be raised when the arrays of a state change."""
@@ -45,10 +45,8 @@ def fingerprint(problem: ContactProblem, options: Options) -> Fingerprint:
 
 
 def _maps(problem: ContactProblem) -> Iterator[Map]:
-    for surface in (problem.surface_1, problem.surface_2):
-        roughness = surface.roughness
-        parts = roughness.parts if isinstance(roughness, Sum) else (roughness,)
-        yield from (part for part in parts if isinstance(part, Map))
+    for surface in problem.surfaces:
+        yield from (part for part in surface.roughness.summands if isinstance(part, Map))
 
 
 def checkpoint_of(output: str | Path) -> Path:

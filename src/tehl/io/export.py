@@ -210,7 +210,7 @@ def _layers(result: Solution, all_layers: Variable) -> Iterator[Variable]:
 
 
 def _line_rows(result: Solution, columns: list[NDArray[Any]]) -> Iterator[tuple[Any, ...]]:
-    row, column = (int(np.abs(axis).argmin()) for axis in (result.scaled.y, result.scaled.x))
+    row, column = result.scaled.centre
     for name, line in (("x", np.s_[row, :]), ("y", np.s_[:, column])):
         yield from ((name, *numbers) for numbers in _rows([field[line] for field in columns]))
 

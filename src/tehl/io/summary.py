@@ -15,7 +15,6 @@ from tehl.post.following import Following
 from tehl.post.roughness import RoughFilm
 from tehl.post.transient_numbers import friction, late_extremes, longer_duration
 from tehl.result import quantities, registry
-from tehl.result.bars import Estimate
 from tehl.result.quantity import Quantity
 from tehl.result.solution import Solution
 from tehl.result.transient import HistoryBars, TransientSolution
@@ -77,15 +76,10 @@ def from_block(kind: type[Part], block: Any) -> Part | None:
         return None
 
 
-def estimates(result: Solution | TransientSolution) -> dict[str, Estimate]:
-    """Return the values of a certified result with their error bars, in SI."""
-    return result.uncertainty if isinstance(result, TransientSolution) else result.certified
-
-
 def _mirrored(result: Solution | TransientSolution, rows: Iterable[Quantity]) -> Block:
     """Return the estimates of a result under the keys of their values."""
     blocks: Block = {}
-    in_si = estimates(result)
+    in_si = result.certified
     for one in rows:
         if one.name in in_si:
             found = (

@@ -15,7 +15,7 @@ from tehl.base.typing import Array
 from tehl.estimate.duration import components
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem, Scales
-from tehl.roughness import Roughness, Sum, Superposition
+from tehl.roughness import Roughness, Sum
 from tehl.roughness.model import RoughnessModel
 from tehl.roughness.superposition import OneRoughness
 from tehl.roughness.waves import HarmonicModel
@@ -119,12 +119,12 @@ def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
     x, y = grid.x[None, :] * width, grid.y[:, None] * length
     values, waves = [], []
     parts: list[Roughness] = []
-    for surface in (problem.surface_1, problem.surface_2):
+    for surface in problem.surfaces:
         resolved = surface.roughness.resolved_on(grid.dx * width, grid.dy * length)
         field = np.broadcast_to(resolved.height(x, y), grid.shape)
         values.append(np.ascontiguousarray(field / scales.film_thickness))
         waves.append(resolved.shortest_wavelengths)
-        parts += resolved.parts if isinstance(resolved, Superposition) else [resolved]
+        parts += resolved.summands
     along, across = (min(pair) for pair in zip(*waves, strict=True))
     heights = Heights(
         surface_1=values[0], surface_2=values[1], wavelengths=(along / width, across / length)

@@ -47,7 +47,7 @@ def resolution_of(problem: ContactProblem, mesh: tuple[float, float]) -> Resolut
         return None
     found = [
         _one(surface.roughness, problem, (_along(problem, number, mesh[0]), mesh[1]))
-        for number, surface in enumerate((problem.surface_1, problem.surface_2), start=1)
+        for number, surface in enumerate(problem.surfaces, start=1)
     ]
     sq, sa, kept = zip(*found, strict=True)
     return Resolution(sq=sq, sa=sa, kept=kept)

@@ -161,8 +161,7 @@ def _of_film(result: Solution, smooth: Solution | None) -> Pictures:
         found["temperature_layers"] = temperature_layers
         found["temperature_section"] = temperature_section
         found["surface_heat"] = surface_heat
-    solids = (result.problem.surface_1.material, result.problem.surface_2.material)
-    if any(solid.transparent for solid in solids):
+    if any(one.material.transparent for one in result.problem.surfaces):
         found |= INTERFEROGRAMS
     return found
 

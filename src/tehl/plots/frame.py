@@ -228,6 +228,32 @@ def window(result: Solution) -> tuple[Span, Span]:
     return spans[0], spans[1]
 
 
+def film_span(film: Array, central: float) -> tuple[float, float]:
+    """Return the least and the central film of a map, positive even where there is no film.
+
+    Parameters
+    ----------
+    film : Array
+        Of the map.
+    central : float
+        Central film, in the unit of the map.
+    """
+    positive = film[film > 0]
+    if not central > 0:
+        central = float(np.median(positive)) if positive.size else 1.0
+    low = float(positive.min()) if positive.size else 0.1 * central
+    return min(max(low, 0.02 * central), 0.95 * central), central
+
+
+def minimum_places(result: Solution) -> list[tuple[float, float]]:
+    """Return the places of the minimum film [half-widths], both of a symmetric contact."""
+    if not result.film.minimum > 0:
+        return []
+    (x, y), film = result.film_scaled.minimum_at, result.scaled.film
+    mirrored = y != 0.0 and np.allclose(film, film[::-1], equal_nan=True)
+    return [(x, side) for side in ((y, -y) if mirrored else (y,))]
+
+
 def pressure_top(result: Solution) -> float:
     """Return the pressure at which scales end [Pa]: the largest one that has a limit, or zero.
 
@@ -290,11 +316,6 @@ def window_places(result: Solution) -> tuple[Array, Array]:
     """Return x and y [um] of the nodes that :func:`window_part` shows."""
     rows, columns = window_part(result)
     return result.x[columns] * MICRO, result.y[rows] * MICRO
-
-
-def centre_row(result: Solution) -> int:
-    """Return the row of the fields nearest to y = 0."""
-    return int(np.argmin(np.abs(result.scaled.y)))
 
 
 def dress_contact(axes: Axes, result: Solution) -> None:

@@ -20,7 +20,6 @@ from tehl.plots.frame import (
     PRESSURE,
     STEPS,
     WINDOW,
-    centre_row,
     figure,
     figure_of,
     pressure_top,
@@ -56,8 +55,8 @@ def centre_lines(result: Solution, *, title: bool | None = True) -> Figure:
     size = (12.4 if thermal else 7.2, 4.4 if rows == 1 else 7.2)
     picture = figure(result, size, title=title)
     grid = picture.subplots(rows, 2 if thermal else 1, squeeze=False)
-    column = int(np.argmin(np.abs(result.scaled.x)))
-    lines: tuple[Line, ...] = ((centre_row(result), slice(None)), (slice(None), column))[:rows]
+    row, column = result.scaled.centre
+    lines: tuple[Line, ...] = ((row, slice(None)), (slice(None), column))[:rows]
     profiles = (profile_x(result), *([profile_y(result)] if rows == 2 else []))
     for panels, profile, (low, high), line in zip(
         grid, profiles, WINDOW[:rows], lines, strict=True
@@ -132,7 +131,7 @@ def rough_centre_line(
     InputError
         If both surfaces are smooth.
     """
-    heights, row = heights_of(result).together, centre_row(result)
+    heights, row = heights_of(result).together, result.scaled.centre[0]
     # half-widths on each side
     inside = np.abs(result.scaled.x) <= 1.25
     place = result.x[inside] * MICRO

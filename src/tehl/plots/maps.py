@@ -22,11 +22,13 @@ from tehl.plots.frame import (
     dress_contact,
     figure,
     figure_of,
+    film_span,
     inner_levels,
     legend_above,
     length,
     map_axes,
     mark_levels,
+    minimum_places,
     nice_levels,
     pressure_top,
     shape,
@@ -71,7 +73,7 @@ def film_map(result: Solution, *, ax: Axes | None = None, title: bool | None = T
     """
     axes = map_axes(result, ax=ax, title=title)
     places, film = window_places(result), result.film_thickness[window_part(result)] * MICRO
-    low, central = _film_range(result, film)
+    low, central = film_span(film, result.film.central * MICRO)
     bottom, top = 0.95 * low, 1.6 * central
     norm = LogNorm(bottom, top)
     colours = colormaps["viridis"].with_extremes(over=_OUTSIDE)
@@ -138,16 +140,6 @@ def _image(axes: Axes, x: Array, y: Array, field: Array, **style: Any) -> AxesIm
     return image
 
 
-def _film_range(result: Solution, film: Array) -> tuple[float, float]:
-    """Return the smallest and the central film [um], positive even where there is no film."""
-    central = result.film.central * MICRO
-    positive = film[film > 0]
-    if not central > 0:
-        central = float(np.median(positive)) if positive.size else 1.0
-    low = float(positive.min()) if positive.size else 0.1 * central
-    return min(max(low, 0.02 * central), 0.95 * central), central
-
-
 def film_levels(low: float, central: float) -> tuple[Array, Array]:
     """Return contour levels: close ones up to 1.1 central films, wide ones up to three.
 
@@ -168,14 +160,11 @@ def film_levels(low: float, central: float) -> tuple[Array, Array]:
 
 def _mark_minimum(axes: Axes, result: Solution) -> list[Line2D]:
     """Mark the minimum film, on both sides of a symmetric contact; return the marks."""
-    if not result.film.minimum > 0:
+    widths = np.array([result.scales.half_width_x, result.scales.half_width_y]) * MICRO
+    places = widths * np.array(minimum_places(result)).reshape(-1, 2)
+    if not places.size:
         return []
-    x, y = result.film_scaled.minimum_at
-    film = result.scaled.film
-    across = (y, -y) if y and np.allclose(film, film[::-1], equal_nan=True) else (y,)
-    widths = result.scales.half_width_x * MICRO, result.scales.half_width_y * MICRO
-    places = np.full(len(across), x * widths[0]), np.array(across) * widths[1]
-    return axes.plot(*places, "r+", ms=6, mew=1.3, zorder=7, label="minimum film")
+    return axes.plot(*places.T, "r+", ms=6, mew=1.3, zorder=7, label="minimum film")
 
 
 def pressure_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:

@@ -27,7 +27,6 @@ from tehl.plots.frame import (
     STEPS,
     WINDOW,
     Span,
-    centre_row,
     colour_bar,
     dress_contact,
     figure,
@@ -169,7 +168,7 @@ def temperature_section(result: Solution, *, title: bool | None = True) -> Figur
     from scipy.interpolate import CubicSpline  # noqa: PLC0415 (0.3 s)
 
     heat, found = _heat_of(result)
-    row, columns = centre_row(result), span_part(result.scaled.x, window(result)[0])
+    row, columns = result.scaled.centre[0], span_part(result.scaled.x, window(result)[0])
     x, film = result.x[columns] * MICRO, np.nan_to_num(result.film_thickness[row, columns] * 1e9)
     zeta = np.linspace(0.0, 1.0, 81)
     rise = np.nan_to_num(heat.temperature[:, row, columns] - found.inlet)
@@ -212,7 +211,7 @@ def surface_heat(result: Solution, *, title: bool | None = True) -> Figure:
         Whether the figure has a title.
     """
     heat = _heat_of(result)[0]
-    row = centre_row(result)
+    row = result.scaled.centre[0]
     x = result.x * MICRO
     picture = figure(result, (7.2, 6.6), title=title)
     upper, lower = picture.subplots(2, 1, sharex=True)

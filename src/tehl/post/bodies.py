@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from tehl.contact.heat import rubbing_parts
 from tehl.post.boundary_contact import touching
 from tehl.post.summits import load_sharing
 from tehl.result.solution import Solution
@@ -54,6 +53,5 @@ def heat_into_bodies(result: Solution) -> tuple[float, float]:
     problem, balance = result.problem, result.heat.balance
     rubbing = (load_sharing(result), touching(result))
     rubbed = sum(one.power_boundary for one in rubbing if one is not None)
-    solids = (problem.surface_1.material, problem.surface_2.material)
-    parts = rubbing_parts([one.conductivity or 0.0 for one in solids], problem.solid_peclet)
+    parts = problem.rubbing_parts
     return balance.surface_1 + parts[0] * rubbed, balance.surface_2 + parts[1] * rubbed

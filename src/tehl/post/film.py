@@ -45,14 +45,12 @@ class Profile:
 
 def profile_x(result: Solution) -> Profile:
     """Return the profile along entrainment, on the grid line nearest to y = 0."""
-    row = int(np.argmin(np.abs(result.scaled.y)))
-    return _profile(result, (row, slice(None)))
+    return _profile(result, (result.scaled.centre[0], slice(None)))
 
 
 def profile_y(result: Solution) -> Profile:
     """Return the profile across entrainment, on the grid line nearest to x = 0."""
-    column = int(np.argmin(np.abs(result.scaled.x)))
-    return _profile(result, (slice(None), column))
+    return _profile(result, (slice(None), result.scaled.centre[1]))
 
 
 def _profile(result: Solution, line: tuple[int, slice] | tuple[slice, int]) -> Profile:

@@ -113,8 +113,7 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
     film = film_in_contact(result)
     formula = likely_film(result.scaled_problem).central_m
     central = result.film.central if result.heights is None else middle_film(result)
-    row, column = (int(np.argmin(np.abs(axis))) for axis in (result.scaled.y, result.scaled.x))
-    scaled = result.scaled
+    scaled, (row, column) = result.scaled, result.scaled.centre
     ripple_film, ripple_pressure = ripples(scaled.x, scaled.y, scaled.film, scaled.pressure)
     return RoughFilm(
         sq=(first, second),

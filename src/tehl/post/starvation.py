@@ -47,7 +47,7 @@ def starvation(result: Solution) -> Starvation | None:
         return None
     if not result.film.minimum > 0.0 or result.status.kind == "diverged":
         return None
-    unit, row = result.scales.film_thickness, int(np.argmin(np.abs(result.scaled.y)))
+    unit, row = result.scales.film_thickness, result.scaled.centre[0]
     flooded = supplied.flooded_film
     # of the oil that enters: the supply stated is that of the first pass
     ratio = float(oil.entering[row]) / unit / flooded_oil(result.scaled_problem)

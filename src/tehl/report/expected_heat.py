@@ -25,7 +25,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from tehl.contact.heat import FilmEnergy, rubbing_parts
+from tehl.contact.heat import FilmEnergy
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.bodies import NotBalancedError, balanced
 from tehl.estimate.film_formulas import expected_film
@@ -208,8 +208,7 @@ def _rubbed(scaled: ScaledProblem) -> tuple[float, float]:
     if law is None:
         return 0.0, 0.0
     force = law.friction * shared_load(scaled).share * problem.load
-    solids = (problem.surface_1.material, problem.surface_2.material)
-    parts = rubbing_parts([one.conductivity or 0.0 for one in solids], problem.solid_peclet)
+    parts = problem.rubbing_parts
     power = force * problem.sliding_speed
     return parts[0] * power, parts[1] * power
 
@@ -220,9 +219,7 @@ def _heat_path(
     """Return the resistances with Tian and Kennedy's ``factor`` and ``offset`` of Pe."""
     width, heat, inlet = problem.hertz.half_width_x, problem.heat, problem.inlet_temperature
     resistance = []
-    for surface, peclet in zip(
-        (problem.surface_1, problem.surface_2), problem.solid_peclet, strict=True
-    ):
+    for surface, peclet in zip(problem.surfaces, problem.solid_peclet, strict=True):
         conductivity = surface.material.conductivity
         if peclet is None or not conductivity:
             return None

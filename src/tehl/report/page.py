@@ -6,7 +6,6 @@ from typing import Any
 from tehl.base.errors import InputError
 from tehl.estimate.film_formulas import film_estimates
 from tehl.estimate.wave_theory import waves_of
-from tehl.io.summary import estimates
 from tehl.io.tables import DEFINITIONS
 from tehl.plots import Pictures, pictures_of
 from tehl.post.film import no_film
@@ -100,7 +99,7 @@ def report_text(
 def _shared(result: Solution | TransientSolution, pictures: Pictures, dpi: int) -> dict[str, Any]:
     """Return the content of both kinds of page."""
     start = result.start if isinstance(result, TransientSolution) else result
-    bars = estimates(result)
+    bars = result.certified
     return {
         "bars": bars,
         "certified": list(_certified(bars)),

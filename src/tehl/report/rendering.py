@@ -5,43 +5,25 @@ from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 from tehl.report.readable import length, seconds
+from tehl.result import quantity
 
 if TYPE_CHECKING:
     from jinja2 import Environment
 
     from tehl.result.bars import Estimate
 
+FILTERS = {
+    **{"": "plain", "nm": "nm", "um": "um", "MPa": "mpa", "GPa": "gpa", "K": "kelvin"},
+    **{"°C": "celsius", "N": "newton", "W": "watt", "N/um": "newton_per_um"},
+    **{"N s/m": "newton_second_per_m", "N mm": "newton_mm", "mrad": "mrad", "%": "share"},
+}
+"""Names of the filters by the units of `tehl.result.quantity`."""
 UNITS = {
-    "nm": (1e9, " nm"),
-    "um": (1e6, " µm"),
-    "mpa": (1e-6, " MPa"),
-    "gpa": (1e-9, " GPa"),
-    "kelvin": (1.0, " K"),
-    "newton": (1.0, " N"),
-    "watt": (1.0, " W"),
-    "newton_per_um": (1e-6, " N/µm"),
-    "newton_second_per_m": (1.0, " N s/m"),
-    "newton_mm": (1e3, " N mm"),
-    "mrad": (1e3, " mrad"),
-    "share": (100.0, " %"),
-    "plain": (1.0, ""),
+    name: (quantity.UNITS[unit][0], f" {unit}".replace("um", "µm").rstrip())
+    for unit, name in FILTERS.items()
+    if unit != "°C"
 }
 """Factor from SI and unit, by name of the filter."""
-FILTERS = {
-    "": "plain",
-    "nm": "nm",
-    "um": "um",
-    "GPa": "gpa",
-    "K": "kelvin",
-    "°C": "celsius",
-    "W": "watt",
-    "N/um": "newton_per_um",
-    "N s/m": "newton_second_per_m",
-    "N mm": "newton_mm",
-    "mrad": "mrad",
-    "%": "share",
-}
-"""Names of the filters by the units of `tehl.result.quantities`."""
 
 
 def render(template: str, **content: Any) -> str:

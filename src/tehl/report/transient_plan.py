@@ -77,7 +77,7 @@ def transient_plan(
     if problem.contact_film is not None:
         halves = options.half_domain == "auto" and problem.is_even_in_y
         start, cost = TOUCHING_PER_STEP, TOUCHING_PER_NODE * (1 if halves else 2)
-    waves = (one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2))
+    waves = (one.roughness.shortest_wavelengths for one in problem.surfaces)
     first, second = (min(wave[0] / dx, wave[1] / dy) for wave in waves)
     speeds = (problem.motion.speed_1, problem.motion.speed_2)
     shift = (transient.stride * speeds[0] / units.speed, transient.stride * speeds[1] / units.speed)

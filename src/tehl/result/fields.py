@@ -32,6 +32,11 @@ class Fields(_ReadOnly):
     film: Array
     """(ny, nx): H = h R_x / a_x^2 [-]."""
 
+    @property
+    def centre(self) -> tuple[int, int]:
+        """Row and column of the node nearest to X = Y = 0."""
+        return int(np.argmin(np.abs(self.y))), int(np.argmin(np.abs(self.x)))
+
     def at_origin(self, values: Array) -> float:
         """Return ``values`` at X = Y = 0, by the parabolas through the nearest three nodes."""
         rows, row_weights = _parabola(self.y)

@@ -1,6 +1,5 @@
 """The solution of a steady problem: fields, film numbers, status, error bars; frozen."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from operator import attrgetter
@@ -8,6 +7,7 @@ from typing import Any, Generic, Literal, Self, TypeVar, overload
 
 from tehl.base.errors import TehlError
 from tehl.base.typing import Array
+from tehl.base.wording import toml_value
 from tehl.contact.moment import moment_at
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
@@ -50,16 +50,9 @@ class Hint:
 def settings_text(settings: Settings) -> str:
     """Return settings in words: set numerics.points = 257 and remove numerics.domain."""
     return " and ".join(
-        f"remove {key}" if value is False else f"set {key} = {_toml(value)}"
+        f"remove {key}" if value is False else f"set {key} = {toml_value(value)}"
         for key, value in settings.items()
     )
-
-
-def _toml(value: object) -> str:
-    """Return a word, a number, or a table of words as a case file states it."""
-    if not isinstance(value, dict):
-        return json.dumps(value)
-    return "{ " + ", ".join(f"{key} = {_toml(inner)}" for key, inner in value.items()) + " }"
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -140,6 +140,11 @@ class TransientSolution:
         return replace(self, **changes)
 
     @property
+    def certified(self) -> dict[str, Estimate]:
+        """Extremes of a certified run with their error bars, in SI."""
+        return self.uncertainty
+
+    @property
     def x(self) -> Array:
         """Coordinates along entrainment [m], (nx,)."""
         return self.start.x

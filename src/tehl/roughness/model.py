@@ -41,6 +41,11 @@ class Roughness:
             """Return the root mean square height Sq [m]; zero for single features."""
 
     @property
+    def summands(self) -> tuple[Any, ...]:
+        """Return the surfaces whose heights are added, this one alone if it is not a sum."""
+        return (self,)
+
+    @property
     def is_smooth(self) -> bool:
         """Return whether the height is zero everywhere."""
         return False

@@ -28,6 +28,11 @@ class _Added(Roughness):
     parts: tuple[Roughness, ...]
 
     @property
+    def summands(self) -> tuple[Any, ...]:
+        """Return the parts."""
+        return self.parts
+
+    @property
     def is_smooth(self) -> bool:
         """Return whether all parts are smooth."""
         return all(part.is_smooth for part in self.parts)

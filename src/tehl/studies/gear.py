@@ -124,13 +124,17 @@ class SpurGears:
             "load_per_length": load * self.share(place),
         }
 
-    def share(self, place: float) -> float:
-        """Return the part of the load that a tooth carries."""
+    @property
+    def _corners(self) -> list[float]:
+        """Places where the share of the load changes its slope, from the pitch point [m]."""
         (start, end), pitch = self.ends, self.base_pitch
         alone, jump = (end - pitch, start + pitch), JUMP * pitch
-        places = [start, alone[0] - jump, alone[0], alone[1], alone[1] + jump, end]
+        return [start, alone[0] - jump, alone[0], alone[1], alone[1] + jump, end]
+
+    def share(self, place: float) -> float:
+        """Return the part of the load that a tooth carries."""
         least, most = LEAST_SHARE, 1.0 - LEAST_SHARE
-        return float(np.interp(place, places, [least, most, 1.0, 1.0, most, least]))
+        return float(np.interp(place, self._corners, [least, most, 1.0, 1.0, most, least]))
 
     def tables(self, points: int = 61) -> dict[str, dict[str, Any]]:
         """Return the tables ``contact`` and ``transient`` of a case: one tooth passes its mesh.
@@ -139,9 +143,6 @@ class SpurGears:
         """
         (start, end), pitch = self.ends, self.at(0.0)
         velocity = self.speed * self.base_radii[0]  # of the contact along the line of action
-        alone = (end - self.base_pitch, start + self.base_pitch)
-        jump = JUMP * self.base_pitch
-        corners = (start, alone[0] - jump, alone[0], alone[1], alone[1] + jump, end)
 
         def course(places: Any, value: Callable[[float], float]) -> list[list[float]]:
             return [[(one - start) / velocity, value(one)] for one in map(float, places)]
@@ -164,7 +165,7 @@ class SpurGears:
                     np.linspace(start, end, points),
                     lambda one: self.at(one)["radius"] / pitch["radius"],
                 ),
-                "load": course(corners, self.share),
+                "load": course(self._corners, self.share),
             },
         }
 

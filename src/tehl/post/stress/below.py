@@ -275,8 +275,7 @@ def _are_equal(one: Case, other: Case) -> bool:
 
 def poisson_ratio(result: Solution, body: int) -> float:
     """Return Poisson's ratio of a body, 1 or 2."""
-    surface = result.problem.surface_1 if body == 1 else result.problem.surface_2
-    return surface.material.poisson_ratio
+    return result.problem.surfaces[body - 1].material.poisson_ratio
 
 
 def _dry(result: Solution, window: Window) -> SurfaceLoads:

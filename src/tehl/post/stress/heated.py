@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from tehl.contact.heat import rubbing_parts
 from tehl.post.stress.loads import parts_of_cells, rubbing
 from tehl.post.stress.slow import RestingStress, SlowStress
 from tehl.post.stress.thermal import Heated, ThermalStress
@@ -36,11 +35,10 @@ def heated_body(
     speed, peclet = problem.motion.speed_of(body), problem.solid_peclet[body - 1]
     if heat is None or peclet is None or not problem.motion.is_plain:
         return None
-    solids = [problem.surface_1.material, problem.surface_2.material]
-    parts = rubbing_parts([one.conductivity or 0.0 for one in solids], problem.solid_peclet)
+    part = problem.rubbing_parts[body - 1]
     sliding = problem.motion.sliding_field(result.x, result.y[:, None])
     rubbed = rubbing(result) * np.hypot(*sliding)
-    flux = (heat.flux_1, heat.flux_2)[body - 1] + parts[body - 1] * rubbed
+    flux = (heat.flux_1, heat.flux_2)[body - 1] + part * rubbed
     flux = flux * parts_of_cells(result)
     columns, last = window.columns, window.columns.stop + sides[1]
     before = max(sides[0] - columns.start, 0)
@@ -53,7 +51,8 @@ def heated_body(
     wide = slice(columns.start - sides[0] + shift, last + shift)
     flux = flux[first[0] :, first[1] :]
     slow = abs(peclet) < FAST_PECLET
-    return Heated(flux, window.spacing, speed, solids[body - 1], (rows, wide), slow)
+    solid = problem.surfaces[body - 1].material
+    return Heated(flux, window.spacing, speed, solid, (rows, wide), slow)
 
 
 def thermal_stress_of(heated: Heated) -> ThermalBody:

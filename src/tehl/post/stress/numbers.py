@@ -164,7 +164,7 @@ def _missing_heat(result: Solution, bodies: list[int]) -> float:
     """Return the largest E alpha dT/(1 - nu) of some bodies [Pa]; at rest half of it."""
     most, problem, heat = 0.0, result.problem, result.problem.heat
     for body in bodies:
-        solid = (problem.surface_1, problem.surface_2)[body - 1].material
+        solid = problem.surfaces[body - 1].material
         if result.heat is None or heat is None or solid.expansion is None:
             continue
         surface, bulk = result.heat.temperature[1 - body], (heat.bulk_1, heat.bulk_2)[body - 1]

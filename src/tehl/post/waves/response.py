@@ -20,7 +20,7 @@ from tehl.estimate.wave_theory import (
 from tehl.post.heat import mean_temperature
 from tehl.post.waves.search import distinct_waves
 from tehl.result.solution import Solution
-from tehl.roughness import Map, Random, Sum, WaveVector
+from tehl.roughness import Map, Random, WaveVector
 
 FIT_HALF_WIDTH = 0.4
 """Half-widths on each side of the centre in which waves are fitted: the pressure is even there."""
@@ -191,8 +191,7 @@ class _Waves:
 
 def _is_searched(problem: ContactProblem) -> bool:
     """Return whether a surface may have waves that it does not state."""
-    surfaces = (problem.surface_1.roughness, problem.surface_2.roughness)
-    parts = (part for one in surfaces for part in (one.parts if isinstance(one, Sum) else [one]))
+    parts = (part for one in problem.surfaces for part in one.roughness.summands)
     return any(isinstance(part, Map | Random) for part in parts)
 
 

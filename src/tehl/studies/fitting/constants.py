@@ -135,7 +135,9 @@ def constants_of(
     return found, table
 
 
-def with_value(lubricant: Mapping[str, Any], constant: Constant, value: float) -> dict[str, Any]:
+def with_value(
+    lubricant: Mapping[str, Any], constant: Constant, value: float | str
+) -> dict[str, Any]:
     """Return the table of a lubricant with another value of a constant.
 
     Parameters
@@ -144,8 +146,8 @@ def with_value(lubricant: Mapping[str, Any], constant: Constant, value: float) -
         Is not changed.
     constant : Constant
         Says where it stands; the index z, which alpha replaces, is removed.
-    value : float
-        In SI.
+    value : float or str
+        In SI, or with its unit.
     """
     after = changed({"lubricant": lubricant}, constant.key, value)["lubricant"]
     if constant.name == "alpha":

@@ -16,9 +16,10 @@ from tehl.base.lazy import lazy
 from tehl.base.typing import Array
 from tehl.base.units import percentage
 from tehl.base.version import __version__
+from tehl.base.wording import aligned, toml_value
 from tehl.lubricant.fluid import Lubricant
 from tehl.studies.engines import engine_of
-from tehl.studies.fitting.constants import Fitted, constants_of, default_names
+from tehl.studies.fitting.constants import Fitted, constants_of, default_names, with_value
 from tehl.studies.fitting.estimate import CONFIDENCE, Estimate, estimate
 from tehl.studies.fitting.measured import KINDS, Point, base_tables, noise_of, points_of
 from tehl.studies.fitting.model import FIT_ERROR, Model
@@ -79,7 +80,7 @@ class OilFit:
             )
             for one in self.constants
         ]
-        lines += _aligned([head, *rows])
+        lines += [f"  {line}" for line in aligned([head, *rows])]
         for kind, noise in self.noise.items():
             lines.append(f"  noise of {kind}, estimated: {noise_text(kind, noise)}")
         if not self.noise or len(self.noise) < len(counts):
@@ -90,7 +91,7 @@ class OilFit:
     def toml(self) -> str:
         """Return the table ``[lubricant]`` of a case file, with the fit in comments."""
         comments = [f"# {line}" for line in self.text().splitlines()]
-        keys = [f"{key} = {_toml(value)}" for key, value in self.lubricant_table.items()]
+        keys = [f"{key} = {toml_value(value)}" for key, value in self.lubricant_table.items()]
         return "\n".join([f"# tehl {__version__}", *comments, "", "[lubricant]", *keys, ""])
 
     def save(self, path: str | Path) -> None:
@@ -250,7 +251,9 @@ def _result(model: Model, measured: Array, found: Estimate) -> OilFit:
     ]
     table = model.at(found.x)
     for one in constants:
-        table = _with_unit(table, one)
+        text = one.constant.shown(one.value)  # to as many digits
+        stated = text if one.constant.unit else float(f"{one.value:.4g}")
+        table = with_value(table, one.constant, stated)
     answers = model.answers(found.x)[0]
     reached = max((getattr(one, "reached", 0.0) for one in answers), default=0.0)
     frame = pd.DataFrame(rows)
@@ -283,34 +286,3 @@ def _row(model: Model, place: int, kind: str, numbers: Any) -> dict[str, Any]:
         "p_h [GPa]": 1e-9 * problem.hertz.pressure,
         "T [°C]": problem.inlet_temperature - 273.15,
     }
-
-
-def _with_unit(lubricant: Mapping[str, Any], one: Fitted) -> dict[str, Any]:
-    """Return the table of a lubricant with the value of a constant as text with its unit."""
-    tables: Any = dict(lubricant)
-    _, *path, last = one.constant.key.split(".")
-    node = tables
-    for key in path:
-        node[key] = dict(node[key])
-        node = node[key]
-    node[last] = one.constant.shown(one.value) if one.constant.unit else float(f"{one.value:.4g}")
-    return dict(tables)
-
-
-def _toml(value: Any) -> str:
-    """Return a value as TOML states it."""
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{key} = {_toml(inner)}" for key, inner in value.items()) + " }"
-    if isinstance(value, list | tuple):
-        return f"[{', '.join(map(_toml, value))}]"
-    return json.dumps(value, ensure_ascii=False)
-
-
-def _aligned(rows: Sequence[Sequence[str]]) -> list[str]:
-    """Return rows of text whose columns stand below one another."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [
-        "  "
-        + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    ]
