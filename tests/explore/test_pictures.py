@@ -158,6 +158,9 @@ def test_the_dry_contact_of_a_roller_is_a_strip_to_its_ends():
     assert half == pytest.approx(1e6 * found.scales.half_width_x)
     at = half * np.sqrt(1.0 - (maps.window[1][1] / far) ** 2)  # of the rim, at the end
     assert at == pytest.approx(half, rel=1e-3)
+    y, *_, dry = shown(found, explain(case, found.options)).lines.y
+    at = np.interp(0.8e6 * found.scales.half_width_y, y, dry)
+    assert at > 0.9 * dry.max()  # 0.6 on an ellipse
 
 
 def test_a_line_contact_is_a_strip_of_equal_lines():

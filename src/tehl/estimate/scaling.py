@@ -8,6 +8,9 @@ from tehl.contact.problem import ContactProblem
 from tehl.contact.roller import Roller
 from tehl.contact.shape import LINE, Ellipse, Shape
 
+CIRCULAR = 0.1
+"""Largest difference of the ratio of the radii from one, for tables of circular contacts."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Scales:

@@ -26,7 +26,7 @@ from tehl.base.typing import Array
 from tehl.contact.options import Domain
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.line import line_supplied_domain
-from tehl.estimate.scaling import Groups, ScaledProblem
+from tehl.estimate.scaling import CIRCULAR, Groups, ScaledProblem
 
 GAMMA = 3.0
 """Exponent of the film law for a circular contact."""
@@ -50,8 +50,6 @@ PASSES_SIDE_FACTOR = 1.3
 """Factor on the sides if the surfaces pass repeatedly."""
 OUTLETS = ((3.0, 0.6), (math.inf, 5.0 / 11.0))
 """Outlet over inlet, up to these distances of the inlet: X = 0 is a node."""
-CIRCULAR = 0.1
-"""Largest difference of the ratio of the radii from one."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -15,7 +15,7 @@ from scipy.interpolate import RegularGridInterpolator
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.problem import ContactProblem
-from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.scaling import CIRCULAR, ScaledProblem
 
 OMEGA_BEND = 0.3
 """Frequency [-] below which the table is interpolated over it, and above over its logarithm."""
@@ -23,8 +23,6 @@ BANDS = (1.0, 3.0)
 STIFFNESS_ERRORS, DAMPING_ERRORS = (7e-4, 1.5e-3, 1.5e-2), (2.5e-4, 1e-3, 1.5e-2)
 """Bounds of the differences to 21 contacts between those of the table, up to Omega = 1, 3 and 30:
 of k, and of Omega c, over k. Damping itself is then within 0.3 %, 4 % and 20 % in 95 % of them."""
-ROUND = 0.1
-"""Largest difference of the ratio of the radii from one."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -68,7 +66,7 @@ def film_stiffness(problem: ContactProblem, frequency: Array | Sequence[float]) 
     """
     scaled = ScaledProblem.of(problem)
     radii = problem.radii_of_axes
-    circular = abs(radii.y / radii.x - 1.0) <= ROUND
+    circular = abs(radii.y / radii.x - 1.0) <= CIRCULAR
     if problem.contact.is_line or not circular or problem.supply is not None:
         raise InputError(
             "film_stiffness has circular contacts, fully flooded: solve others with [dynamics]"

@@ -17,6 +17,7 @@ from tehl.base.lazy import lazy
 from tehl.base.wording import duration
 from tehl.contact.options import Options
 from tehl.explore.shown import Shown, shown
+from tehl.post.micro_film import smooth_reference
 from tehl.report.explain import Explanation, explain
 from tehl.result.solution import CycleReport
 from tehl.studies.engines import end_with_parent
@@ -250,11 +251,9 @@ def steady(problem: ContactProblem) -> ContactProblem:
     """Return the steady problem at the start of a transient one: without what moves in later."""
     if problem.transient is None:
         return problem
-    smooth = {"roughness": type(problem.surface_1).model_fields["roughness"].default}
-    surfaces = {
-        key: getattr(problem, key).model_copy(update=smooth) for key in ("surface_1", "surface_2")
-    }
-    return problem.model_copy(update={"transient": None, **surfaces})
+    if problem.is_rough:
+        return ContactProblem.of(smooth_reference(problem))
+    return problem.model_copy(update={"transient": None})
 
 
 def _stages(options: Options, found: Explanation, *, quick: bool) -> Iterator[tuple[Options, bool]]:

@@ -15,15 +15,13 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.nodes import expected_points, film_to_resolve
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.summits import shared_load
+from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.result.solution import Hint, Settings, Status
 from tehl.result.transient import TIME_OVER
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.convergence import temperature_scale
 from tehl.solver.judging.film_summary import film_summary
-
-LARGEST_TRACTION = 0.1
-"""Largest shear stress of oils over pressure."""
 
 LARGEST_RESOLVED_ERROR = 0.1
 """Expected error of the film from which on a grid does not resolve it."""
@@ -221,7 +219,7 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
     """Yield the shear law if the stress at the inlet temperature exceeds that of oils."""
     problem, stress = scaled.problem, inlet_stress(scaled)
     pressure = problem.hertz.mean_pressure
-    if not stress > LARGEST_TRACTION:
+    if not stress > LARGEST_CREDIBLE:
         return
     yield LikelyCause(
         cause="shear_stress",
@@ -229,7 +227,7 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
             f"lubricant.shear.law = {problem.lubricant.shear.law} with slide_roll_ratio = "
             f"{problem.slide_roll_ratio:g}: the shear stress at the inlet temperature is "
             f"{_round(stress)} times the mean pressure of {pressure / 1e9:.2g} GPa; "
-            f"oils reach at most {LARGEST_TRACTION:g} times."
+            f"oils reach at most {LARGEST_CREDIBLE:g} times."
         ),
         hint=Hint(
             "oils shear at such stresses.",

@@ -31,6 +31,7 @@ from tehl.solver.judging.certify import (
     widest,
 )
 from tehl.solver.judging.richardson import (
+    SPIKE_GROWTH,
     estimate,
     grid_bar,
     order_of_history,
@@ -42,8 +43,6 @@ from tehl.solver.transient.run import solve_transient
 
 JUDGED = ("film_minimum", "film_central_least")
 """Values whose error bars decide whether the grid is too coarse; temperatures do not."""
-GROWTH = 2.0
-"""Further growth of a spike over its last change: it grows to first order."""
 
 Other = Companion[TransientSolution]
 Runs = tuple[TransientSolution, ...]
@@ -176,7 +175,7 @@ def estimates(runs: Runs, wide: TransientSolution) -> dict[str, Estimate]:
     hottest = bars.get("film_rise_max")
     if hottest is not None and not hottest.is_second_order:  # heated by the spike
         before, now = hottest.values[-2:]
-        reach = now + GROWTH * max(now - before, 0.0)
+        reach = now + SPIKE_GROWTH * max(now - before, 0.0)
         bars["film_rise_max"] = with_growing_spike(hottest, reach)
     return bars
 
@@ -247,8 +246,8 @@ def _growth(runs: Runs) -> Array:
     """Return the possible growth of the largest pressure, at the times of the last two runs.
 
     If the largest pressure does not show second order it may be that of a spike, which may grow by
-    `GROWTH` times its last change. If it does, a spike may exceed it by as much as at time zero,
-    the only time at which all runs have the whole field.
+    `SPIKE_GROWTH` times its last change. If it does, a spike may exceed it by as much as at time
+    zero, the only time at which all runs have the whole field.
     """
     middle, finest = _shared(runs[-2:], "pressure_max")
     start = runs[-1].start
@@ -256,4 +255,4 @@ def _growth(runs: Runs) -> Array:
     excess = np.full_like(finest, max(reach - float(runs[-1].history.pressure_max[0]), 0.0))
     if shows_second_order(order_of_history(_shared(runs, "pressure_max"))):
         return excess
-    return np.maximum(excess, GROWTH * (finest - middle))
+    return np.maximum(excess, SPIKE_GROWTH * (finest - middle))
