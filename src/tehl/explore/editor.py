@@ -164,9 +164,9 @@ class CaseEditor:
         self.solve()
         return True
 
-    def _blame(self, text: str, path: str) -> None:
+    def _blame(self, text: str, path: str = "", *, again: bool = False) -> None:
         """Show what is wrong beside the control that the sentence names, else that of ``path``."""
         paths = (item.path for group in self.groups for item in group.items)
         named = (one for one in paths if text.startswith(f"{one} = "))
-        self.fault = Fault(text, next(named, path))
+        self.fault = Fault(text, next(named, path), again)
         self.notify("fault")

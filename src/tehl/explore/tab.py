@@ -7,7 +7,7 @@ from tehl.api.problem import ContactProblem
 from tehl.base.errors import InputError
 from tehl.explore.by_formula import scaled_by_formula
 from tehl.explore.case_text import CaseText
-from tehl.explore.editor import CaseEditor, Fault
+from tehl.explore.editor import CaseEditor
 from tehl.explore.files import Files
 from tehl.explore.jobs import Ask, End, Explained, Failure, Note, Part, TooCoarse
 from tehl.explore.scales import Scales
@@ -83,7 +83,7 @@ class Tab(CaseEditor):
         try:
             tables = self.tables
         except InputError as error:
-            self._blame(self.files.hidden(str(error)), "")
+            self._blame(self.files.hidden(str(error)))
             return
         problem = self.problem
         assert problem is not None
@@ -134,8 +134,7 @@ class Tab(CaseEditor):
         elif isinstance(message, TooCoarse):
             self.coarse = message.text
         elif isinstance(message, Failure):
-            self.fault = Fault(self.files.hidden(message.text), again=message.again)
-            self.notify("fault")
+            self._blame(self.files.hidden(message.text), again=message.again)
         elif isinstance(message, End):
             self._newest, self.note = None, ""
             self.coarse = self.coarse if self.is_moving else ""
@@ -191,7 +190,7 @@ class Tab(CaseEditor):
                 self.pinned = replace(pinned, shown=message.shown)
                 self.notify("picture")
             elif isinstance(message, Failure):
-                self._blame(f"{ON_REQUEST[view]} of the pinned state: {message.text}", "")
+                self._blame(f"{ON_REQUEST[view]} of the pinned state: {message.text}")
 
         ask = Ask(tables=self.files.resolved(pinned.case.tables), view=view)
         self.solver.submit(f"{self.owner} pinned", ask, receive)
