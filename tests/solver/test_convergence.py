@@ -13,6 +13,7 @@ from tehl.solver.judging.convergence import (
     LEAST_CONVERGENCE_RATE,
     LEAST_CYCLES,
     SECOND_RATE,
+    Criteria,
     GridTrace,
     film_converged,
     recedes,
@@ -38,7 +39,7 @@ from tehl.solver.physics.lag import LARGEST_LOG_STEP, Lag, damped
 @pytest.mark.parametrize("damping", [0.3, 0.5])
 def test_the_iteration_error_of_a_damped_cycle_is_not_underestimated(damping: float) -> None:
     """The film changes by a constant part of its error per cycle."""
-    trace, left = GridTrace(damping=damping), [1.0]
+    trace, left = GridTrace(Criteria(damping=damping)), [1.0]
     for _ in range(6):
         trace.central.values.append(0.3 + left[-1])
         left.append((1.0 - damping) * left[-1])
@@ -49,7 +50,7 @@ def test_the_iteration_error_of_a_damped_cycle_is_not_underestimated(damping: fl
 def test_a_small_change_between_large_ones_does_not_hide_what_is_left() -> None:
     """A minimum film (M = 21,000), after 30 cycles 7.161: of it 0.3 was seen after cycle 5."""
     films = (7.339, 7.309, 7.264, 7.243, 7.211, 7.203, 7.180, 7.180, 7.167, 7.169, 7.163)
-    trace = GridTrace(damping=0.5, rate=STEEP.rate)
+    trace = GridTrace(Criteria(damping=0.5, rate=STEEP.rate))
     for number, film in enumerate(films):
         trace.note(1.0, film)
         if number > 2:
@@ -57,8 +58,11 @@ def test_a_small_change_between_large_ones_does_not_hide_what_is_left() -> None:
 
 
 def test_a_damping_factor_of_one_changes_nothing() -> None:
-    trace = GridTrace(damping=1.0)
-    assert (trace.least_cycles, trace.central.least_rate) == (LEAST_CYCLES, LEAST_CONVERGENCE_RATE)
+    trace = GridTrace(Criteria(damping=1.0))
+    assert (trace.criteria.least_cycles, trace.central.least_rate) == (
+        LEAST_CYCLES,
+        LEAST_CONVERGENCE_RATE,
+    )
 
 
 @pytest.mark.parametrize(("single", "share", "ends"), [(0.9, 0.41, True), (0.9, 0.46, False)])
@@ -66,7 +70,7 @@ def test_the_share_of_contact_and_not_single_nodes_ends_cycles_where_surfaces_to
     single: float, share: float, ends: bool
 ) -> None:
     """It has changed by 0.2 from the coarser grid: a ninth of that may be left."""
-    coarse, fine = GridTrace(), GridTrace(steady=1e-3, largest_change=0.01)
+    coarse, fine = GridTrace(), GridTrace(Criteria(steady=1e-3, largest_change=0.01))
     for trace, shares in ((coarse, (0.6, 0.6)), (fine, (0.42, share))):
         for cycle, touching in enumerate(shares, start=1):
             trace.add(report(cycle, 10.0**-cycle), touching)
@@ -374,16 +378,16 @@ def report(cycle: int, residual: float) -> CycleReport:
 @pytest.mark.parametrize("relaxation", [STEEP, THIN])
 def test_small_steps_do_not_pass_for_convergence(relaxation: Relaxation) -> None:
     """A change that falls to a tenth may be followed by slow ones, which small steps hide."""
-    trace = GridTrace(rate=relaxation.rate)
+    trace = GridTrace(Criteria(rate=relaxation.rate))
     for film in (1.0, 1.1, 1.11):
         trace.note(film, film)
     assert trace.central.iteration_error() >= 0.01
-    assert GridTrace().least_cycles <= trace.least_cycles
+    assert GridTrace().criteria.least_cycles <= trace.criteria.least_cycles
 
 
 def test_the_rate_of_the_first_cycle_on_a_grid_is_not_that_of_the_next_ones() -> None:
     """It removes errors of the interpolated start: most of the second change is left."""
-    trace = GridTrace(second_rate=SECOND_RATE)
+    trace = GridTrace(Criteria(second_rate=SECOND_RATE))
     for film in (1.0, 1.2, 1.21):
         trace.note(film, film)
     assert trace.central.iteration_error() > 0.008

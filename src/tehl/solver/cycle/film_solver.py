@@ -324,12 +324,12 @@ class FilmSolver(GridIteration):
         first, last = trace.reports[0], trace.reports[-1]
         # fewer cycles than MOST_CYCLES: it converged before
         falling = last.cycle < MOST_CYCLES or last.residual < self.options.tolerance
-        if self.strategy.newton or trace.damping < 1.0:
+        if self.strategy.newton or trace.criteria.damping < 1.0:
             # it may start so close that its residual cannot halve; heat is added in increments
             falling = falling or film_converged(trace, self._coarser_trace())
         falling = falling or last.residual < 0.5 * first.residual
         # single nodes may part, and those at the ends of rollers change most
-        single = trace.steady or self.finest.grid.is_closed
+        single = trace.criteria.steady or self.finest.grid.is_closed
         change = last.mean_change if single else last.change
         return (
             falling

@@ -21,6 +21,7 @@ from tehl.solver.judging.balance import LARGEST_OIL_ERROR, Balance
 from tehl.solver.judging.convergence import (
     SECOND_LOAD,
     SECOND_RATE,
+    Criteria,
     GridTrace,
     TimeIsOverError,
     check_divergence,
@@ -97,7 +98,7 @@ class GridIteration:
         done = self._start_heat(levels)
         method = method_of(self._visit(levels))
         is_slow = self.coupling.state is not None or self.hierarchy.scaled.groups.M > SECOND_LOAD
-        trace = GridTrace(
+        criteria = Criteria(
             largest_change=method.largest_change,
             damping=self.coupling.damping,
             rate=self.strategy.relaxation.rate,
@@ -105,9 +106,8 @@ class GridIteration:
             negligible=self._negligible(),
             steady=method.steady,
             part=EXTRAPOLATED_PART if self.options.extrapolate else 1.0,
-            coupled=self.coupling.state is not None,
-            columns=fine.grid.nx,
         )
+        trace = GridTrace(criteria, coupled=self.coupling.state is not None, columns=fine.grid.nx)
         self.traces.append(trace)
         begins = len(levels) - 1 == self.roughness.first  # the first level with the heights
         done += self._raise_heights(levels, method) if begins else 0
@@ -165,9 +165,9 @@ class GridIteration:
         if not finest:
             done = film_converged(trace, coarser) and temperature_converged(trace, coarser)
             return done or stalled(trace, self.coupling.patience)
-        trace.negligible = max(
-            self._negligible(), self.roughness.spare(self.goal.spare(self.errors()))
-        )
+        spare = self.roughness.spare(self.goal.spare(self.errors()))
+        negligible = max(self._negligible(), spare)
+        trace.criteria = replace(trace.criteria, negligible=negligible)
         done = self.balance.is_kept and must_stop(trace, coarser, self.options)
         if not done and self.strategy.gives_up and recedes(trace):
             return True

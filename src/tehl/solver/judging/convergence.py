@@ -139,48 +139,66 @@ class Trace:
         return abs(change) * rate / (1.0 - rate)
 
 
-@dataclass(slots=True)
-class GridTrace:
-    """Film, temperature rise and share of contact over the cycles on one grid, with their reports.
+@dataclass(frozen=True, slots=True)
+class Criteria:
+    """What is known of the cycles on a grid before the first one, and accepted of their changes.
 
-    ``measured`` has further values after the last cycle (`tehl.solver.judging.measures`).
     ``damping`` is the damping factor of heat and thinning between rough surfaces, 1 is undamped: no
     convergence rate is below 1 - damping, or below ``rate``, or after two cycles ``second_rate``.
     With a ``rate``, that of small steps, large and small changes alternate: the minimum of an outer
     ring (M = 21,000), 0.57 % from its limit, changed by 0.44 and then by 0.12 %.
     ``negligible`` is the relative iteration error of the film that is always accepted. Without a
     coarser film to compare, a mean change of ``steady`` is accepted: where surfaces touch, single
-    nodes change by more, and ``largest_change`` is that of the mean. A grid on which the iteration
-    ``diverged`` is not compared with others. ``outputs`` are the fields to extrapolate; then the
-    iteration error may be ``part`` of what it may be without. ``coupled`` says whether the film is
-    heated or thins on this grid. ``columns`` are its nodes along x.
+    nodes change by more, and ``largest_change`` is that of the mean. Fields to extrapolate have an
+    iteration error that may be ``part`` of what it may be without.
     """
 
+    largest_change: float = LARGEST_CYCLE_CHANGE
+    damping: float = 1.0
+    rate: float = 0.0
+    second_rate: float = 0.0
+    negligible: float = 0.0
+    steady: float = 0.0
+    part: float = 1.0
+
+    @property
+    def least_rate(self) -> float:
+        """Least convergence rate per cycle, by damping and small steps [-]."""
+        return max(self.rate, 1.0 - self.damping)
+
+    @property
+    def least_cycles(self) -> int:
+        """Least cycles before the film may have converged."""
+        return max(LEAST_CYCLES, math.ceil(1.0 / (1.0 - self.least_rate)))
+
+
+@dataclass(slots=True)
+class GridTrace:
+    """Film, temperature rise and share of contact over the cycles on one grid, with their reports.
+
+    ``measured`` has further values after the last cycle (`tehl.solver.judging.measures`), and
+    ``outputs`` are the fields to extrapolate. A grid on which the iteration ``diverged`` is not
+    compared with others. ``coupled`` says whether the film is heated or thins on this grid.
+    ``columns`` are its nodes along x.
+    """
+
+    criteria: Criteria = field(default_factory=Criteria)
     central: Trace = field(default_factory=Trace)
     minimum: Trace = field(default_factory=Trace)
     rise: Trace = field(default_factory=Trace)
     touching: Trace = field(default_factory=Trace)
     reports: list[CycleReport] = field(default_factory=list)
     measured: dict[str, float] = field(default_factory=dict)
-    largest_change: float = LARGEST_CYCLE_CHANGE
-    least_cycles: int = LEAST_CYCLES
-    damping: float = 1.0
-    rate: float = 0.0
-    second_rate: float = 0.0
-    negligible: float = 0.0
-    steady: float = 0.0
     diverged: bool = False
     outputs: Outputs | None = None
-    part: float = 1.0
     coupled: bool = False
     columns: int = 0
 
     def __post_init__(self) -> None:
-        rate = max(self.rate, 1.0 - self.damping)
-        self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / (1.0 - rate)))
+        known = self.criteria
         for trace in (self.central, self.minimum, self.rise, self.touching):
-            trace.least_rate = max(LEAST_CONVERGENCE_RATE, rate)
-            trace.second_rate, trace.alternates = self.second_rate, self.rate > 0.0
+            trace.least_rate = max(LEAST_CONVERGENCE_RATE, known.least_rate)
+            trace.second_rate, trace.alternates = known.second_rate, known.rate > 0.0
 
     def note(self, central: float, minimum: float) -> None:
         """Append the film before the first cycle.
@@ -222,9 +240,9 @@ def must_stop(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
     if options.accuracy != "change":
         return converged(now, coarser, options)
     last = now.reports[-1]
-    if len(now.reports) < now.least_cycles and now.damping < 1.0:
+    if len(now.reports) < now.criteria.least_cycles and now.criteria.damping < 1.0:
         return False
-    small = last.mean_change <= now.damping * MEAN_CHANGE
+    small = last.mean_change <= now.criteria.damping * MEAN_CHANGE
     return small and last.temperature_change <= KELVIN_CHANGE
 
 
@@ -241,11 +259,11 @@ def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
     now, coarser, options
         As in `must_stop`.
     """
-    if len(now.reports) < now.least_cycles:
+    if len(now.reports) < now.criteria.least_cycles:
         return False
     if options.accuracy == "tight":
         last = now.reports[-1]
-        change = max(last.residual, last.change, abs(last.load_error)) / now.damping
+        change = max(last.residual, last.change, abs(last.load_error)) / now.criteria.damping
         kelvin = temperature_scale(last) * options.tolerance
         return change <= options.tolerance and last.temperature_change <= kelvin
     return film_converged(now, coarser) and temperature_converged(now, coarser)
@@ -284,7 +302,7 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
     coarser : GridTrace or None
         Of the grid before, for the discretisation error; None on the first grid.
     """
-    if len(now.reports) < now.least_cycles:
+    if len(now.reports) < now.criteria.least_cycles:
         return False
     last = now.reports[-1]
     least = SLOW_CONVERGENCE_RATE if len(now.reports) < SLOW_CYCLES else 1.0
@@ -292,11 +310,11 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
         last.change > ROUNDING_CHANGE and last.residual > least * now.reports[-2].residual
     ):  # its changes are not errors yet
         return False
-    change = last.mean_change if now.steady else last.change
-    if abs(last.load_error) > LARGEST_LOAD_ERROR or change > now.largest_change:
+    change = last.mean_change if now.criteria.steady else last.change
+    if abs(last.load_error) > LARGEST_LOAD_ERROR or change > now.criteria.largest_change:
         return False
     if coarser is None:  # without a discretisation error: a change of 1e-3 Hertz pressures
-        return last.change < now.damping * 1e-3 or last.mean_change < now.steady
+        return last.change < now.criteria.damping * 1e-3 or last.mean_change < now.criteria.steady
     pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
     # discretisation error of second order: a third of the change from the coarser grid
     limit = max(abs(a.values[-1] - b.values[-1]) / 3.0 for a, b in pairs) / 3.0
@@ -306,8 +324,8 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
     return all(
         a.iteration_error()
         <= max(
-            now.part * max(abs(a.values[-1] - b.values[-1]) / 9.0, 0.1 * limit),
-            max(now.negligible, ROUNDING_CHANGE) * abs(a.values[-1]),
+            now.criteria.part * max(abs(a.values[-1] - b.values[-1]) / 9.0, 0.1 * limit),
+            max(now.criteria.negligible, ROUNDING_CHANGE) * abs(a.values[-1]),
         )
         for a, b in pairs
     )
