@@ -217,3 +217,13 @@ def test_oil_before_a_patch_is_corrected_by_coarser_grids():
     reports = [one for one in found.history if one.points[0] == 65]
     assert {one.smoother for one in reports} == {"careful"}
     assert reports[30].residual < 1e-3 * reports[10].residual
+
+
+def test_surfaces_whose_oil_fills_no_boundary_film_touch_beside_asperities():
+    """Where they part, asperities that lose the pressure of the contact move the film at once."""
+    _, features, problem = any_contacts.contact(57, 36, tables_at_once=True)
+    assert {"asperities", "contact_film", "rough", "supply"} <= features
+    still = problem.model_copy(update={"transient": None})
+    found = solve(still, Options(points=81))
+    assert found.touching.share == pytest.approx(1.0, abs=0.01)  # little oil, a rough dry contact
+    assert found.film_scaled.minimum == pytest.approx(found.film_scaled.central, rel=1e-6)

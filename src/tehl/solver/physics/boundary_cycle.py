@@ -183,9 +183,10 @@ class TouchingCycle:
         if not touching.any():
             return change
         gap = share.nearest - level.separation
-        if change.any():
+        pressed = change + share.jumped
+        if pressed.any():
             moved = np.empty_like(gap)
-            level.equations.deformation.deflect(change, moved)
+            level.equations.deformation.deflect(pressed, moved)
             gap -= moved
         if not np.isfinite(gap[touching]).all():
             raise DivergedError

@@ -179,6 +179,9 @@ class BoundaryContact(OilAlone):
         self.combines, self.reach = beneath.combines, beneath.reach
         self.touching, self.lowered = np.zeros(shape, bool), np.zeros(shape, bool)
         self.held, self.injected = np.zeros(shape), np.zeros(shape)
+        self.jumped = np.zeros(shape)
+        """Change of the pressure since the separation was evaluated: without oil summits that part
+        take what their law gives [-]."""
 
     def extend(self, film: Film) -> Film:
         """Return the film with the pressure of the solids and the orders of the fluxes."""
@@ -230,10 +233,12 @@ class BoundaryContact(OilAlone):
             level.update_properties()
             return
         film = level.film
+        np.add(film.p, film.asperity, out=self.jumped)
         before = film.asperity[touching]
         frozen = (level.smoother.frozen.astype(bool) | touching).astype(np.uint8)
         self.beneath.follow_at(level, reach, self.held, frozen)
         film.asperity[touching] = before
+        np.subtract(film.p + film.asperity, self.jumped, out=self.jumped)
 
     def _find(self, level: Carried) -> None:
         inner = self.equations.grid.inner
@@ -352,9 +357,11 @@ class BoundaryContact(OilAlone):
         if layer is None or layer.max() > self.least:
             self.beneath.start(level, expected_film)
             return
-        level.set_state(np.zeros(grid.shape), 0.0, dry_pressure(grid, self.equations.groups))
+        oil, dry = np.zeros(grid.shape), dry_pressure(grid, self.equations.groups)
+        level.set_state(oil, 0.0, dry)
         level.update()
         level.move(self.nearest - central_value(grid, level.separation))
+        level.set_state(oil, level.rigid_approach, dry)  # far apart, summits have taken its place
 
 
 def share_of(equations: Equations) -> OilAlone:
