@@ -109,3 +109,22 @@ def test_lines_crowd_at_the_ends_of_a_roller(mirror):
     towards_end = 0.5 * (1.0 - y) ** 2
     below = towards_end[-2] - towards_end[-1]
     assert (south[-1] + north[-1]) * below / lines.dy**2 == pytest.approx(1.0)
+
+
+def test_lines_crowd_where_the_loaded_part_of_a_roller_ends():
+    ends = Domain.model_construct(x=(-3.0, 1.5), y=(-1.0, 1.0))
+    part, edges = 0.1, (0.9, 0.5)
+    c = crowding(part, edges)
+    lines = Grid(nx=33, ny=257, domain=ends, mirror=False, crowding=c, edges=edges)
+    y, steps = lines.y, np.diff(lines.y)
+    assert y[[0, 128, -1]].tolist() == [-1.0, 0.0, 1.0]
+    np.testing.assert_allclose(lines.coarser().y, y[::2], atol=1e-12)
+    for edge in (-0.9, 0.5):
+        near = steps[np.abs(y[1:] - edge) < 0.03]
+        assert near.min() < 1.3 * part * lines.dy
+        assert near.min() < 0.2 * steps.max()
+    outside = (y > 0.5).sum() / ((y > -0.4) & (y < 0.5)).sum()  # most lines are where load is
+    assert outside < 0.6
+    even = replace(lines, edges=(1.0, 1.0))
+    s = np.linspace(-1.0, 1.0, 257)
+    np.testing.assert_allclose(even.y, np.tanh(c * s) / np.tanh(c), atol=1e-12)

@@ -1,6 +1,7 @@
 """Rollers of finite length: dry pressure, middle and ends of the film, tilt; long cells."""
 
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,12 +11,12 @@ from tehl.api.problem import case_from_tables
 from tehl.cli.text import as_text
 from tehl.contact.options import Domain, Options
 from tehl.estimate.domain import domain_of
-from tehl.estimate.grid import Grid
+from tehl.estimate.grid import Grid, closest
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.estimate.third_order import third_order_bar
 from tehl.io.templates import template_text
-from tehl.operators.dry import dry_pressure
+from tehl.operators.dry import at_loaded_ends, dry_pressure
 from tehl.plots import pressure_map
 from tehl.plots.frame import pressure_top
 from tehl.solver.judging.film_summary import film_summary
@@ -342,3 +343,42 @@ def test_the_template_converges_by_the_first_strategy():
     found = tehl.solve(problem)
     assert {one.smoother for one in found.history} == {"fast"}
     assert found.history[-1].points == (257, 129)
+
+
+def test_the_film_is_thin_where_a_roller_leaves_the_raceway():
+    """With lines that crowd at its ends, which carry nothing, the minimum errs by 23 %."""
+    standard = {"shape": "iso-16281", "diameter": "20 mm"}
+    short = roller(60.0, length="3 mm", profile=standard)
+    coarse, fine = (
+        tehl.solve(short, Options(points=(257, lines), wedge_order=3)) for lines in (129, 257)
+    )
+    place = abs(coarse.film_scaled.minimum_at[1])
+    assert 0.8 < place < 0.85
+    assert np.interp(place, coarse.scaled.y[1:], np.diff(coarse.scaled.y)) < 0.4 * 2.0 / 128
+    difference = abs(coarse.film_scaled.minimum / fine.film_scaled.minimum - 1.0)
+    assert difference < coarse.errors.minimum < 0.07
+    assert fine.errors.minimum < 0.025
+
+
+def test_lines_stay_where_the_load_reaches_the_ends_of_a_roller():
+    grid = Grid(
+        nx=65,
+        ny=65,
+        domain=Domain.model_construct(x=(-3.0, 1.5), y=(-1.0, 1.0)),
+        mirror=True,
+        crowding=2.0,
+    )
+    found = {
+        shape: at_loaded_ends(grid, ScaledProblem.of(roller(profile=profile)).groups)
+        for shape, profile in (
+            ("logarithmic", LOGARITHMIC),
+            ("crown", {"shape": "crown", "radius": "0.5 m"}),
+        )
+    }
+    assert found["logarithmic"] == grid
+    assert found["crown"].edges == pytest.approx((0.6, 0.6), abs=0.2)
+    assert closest(found["crown"].crowding, found["crown"].edges) == pytest.approx(
+        closest(2.0, (1.0, 1.0)), rel=1e-6
+    )
+    straight = replace(grid, crowding=0.0)
+    assert at_loaded_ends(straight, ScaledProblem.of(roller()).groups) is straight

@@ -5,6 +5,7 @@ They are uniform, but for the lines of some rollers.
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -26,10 +27,13 @@ LEAST_LINES, LEAST_CROWDED = 12, 24
 16 intervals, seven contacts of bearings take as many cycles. Where lines crowd at the ends of a
 roller: with half as many the ends of lundberg profiles lack lines, and the cycles end at a residual
 of 1e-5. Only beside columns that halve twice or more: bars compare three grids."""
-END_CELL, LEAST_PART, CROWDING_STEPS = 1.4, 0.02, 40
-"""Length of the last cells of a roller over their width: with 1 single nodes there alternate from
-cycle to cycle, with 2 the thinnest film of a logarithmic profile errs three times as much. Least
-part of the mean distance of lines that it may be; iterations for c."""
+END_CELL, LEAST_PART = 1.4, 0.02
+"""Length of the cells where a roller ends or leaves the raceway over their width: with 1 single
+nodes there alternate from cycle to cycle, with 2 the thinnest film of a logarithmic profile errs
+three times as much. Least part of the mean distance of lines that it may be."""
+OUTSIDE_GROWTH, PLACING_HALVINGS = 3.0, 60
+"""Growth of cells beyond the loaded part of a roller over that within it, as nothing flows there;
+halvings that find a place or a width to rounding."""
 END_FILM = 0.1
 """Central film from which on those cells are longer, by its square root: between thick films nodes
 alternate on longer ones too (M 12, L 15 with a tilt: cycles stall with 1.4, and not with 2)."""
@@ -47,8 +51,11 @@ class Grid:
     mirror: bool
     """Only y >= 0 is stored; row 0 is the symmetry line."""
     crowding: float = 0.0
-    """c of the lines of a roller, Y = tanh(c s)/tanh(c) with s uniform, which crowd at its ends;
-    uniform if zero."""
+    """c of the lines of a roller, which crowd at two places: their density is the sum of
+    1/(w + |Y - e|) over both, w = 1/tanh(c) - 1; uniform if zero."""
+    edges: tuple[float, float] = (1.0, 1.0)
+    """e of both places: the loaded part is -e_1 < Y < e_2. At the ends Y = tanh(c s)/tanh(c) with s
+    uniform."""
 
     @property
     def dx(self) -> float:
@@ -80,9 +87,7 @@ class Grid:
         """Coordinates of the stored rows."""
         start = 0.0 if self.mirror or self.ny == 1 else self.domain.y[0]
         found: Array = start + self.dy * np.arange(float(self.shape[0]))
-        if self.crowding:
-            found = np.tanh(self.crowding * found) / math.tanh(self.crowding)
-        return found
+        return _placed(self) if self.crowding else found
 
     @property
     def faces(self) -> Array:
@@ -187,20 +192,71 @@ def can_mirror(shape: tuple[int, int], domain: Domain) -> bool:
     return (coarsest.ny - 1) % 2 == 0 and domain.y[0] == -domain.y[1]
 
 
-def crowding(part: float) -> float:
-    """Return c of lines that crowd at the ends of a roller: sinh(2 c) = 2 c / part.
+def crowding(part: float, edges: tuple[float, float] = (1.0, 1.0)) -> float:
+    """Return c of lines that crowd where the loaded part of a roller ends; zero if they do not.
 
     Parameters
     ----------
     part : float
-        Distance of lines at the ends over that of uniform ones; `LEAST_PART` at least.
+        Distance of lines there over that of uniform ones; `LEAST_PART` at least.
+    edges : (float, float)
+        As of `Grid`.
     """
-    part, found = max(part, LEAST_PART), 4.0
+    part, low, high = max(part, LEAST_PART), 0.0, 8.0
     if part >= 1.0:
         return 0.0
-    for _ in range(CROWDING_STEPS):
-        found = 0.5 * math.asinh(2.0 * found / part)
-    return found
+    for _ in range(PLACING_HALVINGS):
+        found = 0.5 * (low + high)
+        low, high = (found, high) if closest(found, edges) > part else (low, found)
+    return low
+
+
+def closest(crowding: float, edges: tuple[float, float]) -> float:
+    """Return the least distance of lines over that of uniform ones.
+
+    Parameters
+    ----------
+    crowding, edges : float, (float, float)
+        As of `Grid`.
+    """
+    width = 2.0 / math.expm1(2.0 * crowding)
+    below, middle, above = _number(np.array([-1.0, 0.0, 1.0]), width, edges)
+    density = 1.0 / width + 1.0 / (width + sum(edges))
+    return float(min(above - middle, middle - below) / density)
+
+
+def _number(y: Array, width: float, edges: tuple[float, float]) -> Array:
+    """Return the number of a line at Y, not scaled: the integral of the density of lines.
+
+    The sum of 1/(w + t) over both places with t the distance from them, 1/(w + `OUTSIDE_GROWTH` t)
+    where it is outside of the loaded part.
+    """
+
+    def one(beyond: Array) -> Array:
+        outside = np.log1p(OUTSIDE_GROWTH * np.maximum(beyond, 0.0) / width) / OUTSIDE_GROWTH
+        return outside - np.log1p(np.maximum(-beyond, 0.0) / width)
+
+    return one(y - edges[1]) - one(-y - edges[0])
+
+
+@lru_cache(maxsize=64)
+def _placed(grid: Grid) -> Array:
+    """Return Y of the stored rows of a grid whose lines crowd, read-only.
+
+    Half of the lines lie on each side of Y = 0, so that halved grids share their lines.
+    """
+    numbers = np.linspace(0.0 if grid.mirror else -1.0, 1.0, grid.shape[0])
+    width, edges = 2.0 / math.expm1(2.0 * grid.crowding), grid.edges
+    below, middle, above = _number(np.array([-1.0, 0.0, 1.0]), width, edges)
+    wanted = middle + np.where(numbers < 0.0, middle - below, above - middle) * numbers
+    low, high = np.minimum(np.sign(numbers), 0.0), np.maximum(np.sign(numbers), 0.0)
+    for _ in range(PLACING_HALVINGS):
+        y = 0.5 * (low + high)
+        is_below = _number(y, width, edges) < wanted
+        low, high = np.where(is_below, y, low), np.where(is_below, high, y)
+    y = np.where(np.abs(numbers) == 1.0, numbers, 0.5 * (low + high))
+    y.flags.writeable = False
+    return y
 
 
 def halved_grids(finest: Grid) -> list[Grid]:

@@ -23,6 +23,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.estimate.starvation import FORMULA_ERROR, Flooded, check_supply
 from tehl.kernels.warmup import warm_up
+from tehl.operators.dry import at_loaded_ends
 from tehl.operators.heights import heights_of, units_of
 from tehl.operators.resolution import resolution_of
 from tehl.result.fields import SurfaceHeights
@@ -164,7 +165,7 @@ class Climb:
         force: bool,
     ) -> Attempt:
         """Run a strategy on the grid of a plan, from grids that are solved; judge its result."""
-        grid = finest_grid(self.scaled, plan)
+        grid = at_loaded_ends(finest_grid(self.scaled, plan), self.scaled.groups)
         hierarchy = Hierarchy.on(grid, self.scaled, plan, strategy.first_relaxation)
         return _run(self.solver(hierarchy, strategy), force=force, solved=solved)
 
