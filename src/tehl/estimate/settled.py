@@ -89,10 +89,10 @@ def crowds_at_ends(problem: ContactProblem) -> bool:
 
     Heights, time steps, dynamics and paths of surfaces across lines need uniform ones, and the film
     at the sharp ends of a straight roller has no limit to resolve: only a flooded film under a
-    profile, smooth on the mesh and steady, has crowded ones. It may thin by shear, share the
-    load with asperities, and be heated by sliding along x.
+    profile, smooth on the mesh and steady, has crowded ones. It may thin by shear, cavitate, share
+    the load with asperities, and be heated by sliding along x.
     """
-    others = (problem.supply, problem.cavitation, problem.dynamics)
+    others = (problem.supply, problem.dynamics)
     is_profiled = problem.contact.profile is not None
     if not is_profiled or any(one is not None for one in others):
         return False

@@ -277,9 +277,11 @@ def oil_balance(level: Level, *, until: float = np.inf) -> float:
     if level.grid.ny > 1:
         weights[0] = 0.5 if mirror else 0.0
         weights[-1] = 0.0
+    if level.grid.is_closed:
+        weights = level.grid.widths / level.grid.dy
     through = weights @ passed[:, :-1]
     sides = np.zeros(passed.shape[1])
-    edges = ((-1, -2), (0, 1))[: 1 if mirror else 2] if level.grid.ny > 1 else ()
+    edges = ((-1, -2), (0, 1))[: 1 if mirror else 2] if level.grid.edge_rows else ()
     for edge, inner in edges:
         eps = conductance(stencil, film.eps_y[edge], film.eps_y[inner])
         sides += stencil.cy * eps * (film.p[edge] - film.p[inner])
