@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tehl.operators.line_source import history
-from tehl.operators.trail import Trail, lag_of
+from tehl.operators.trail import Trail, VaryingTrail, lag_of
 
 NODES, ROWS = 65, 8
 
@@ -52,3 +52,34 @@ def test_a_flux_that_grows_in_time_reaches_a_point_with_the_delay_of_the_way(lag
     exact = 16.0 / 15.0 * x**2.5 * (1.0 + growth * end) - delay
     assert delay[-1] > 0.05 * exact[-1]
     np.testing.assert_allclose(rise, np.repeat(exact, ROWS, 1), rtol=0, atol=5e-4)
+
+
+def test_heat_moves_with_a_surface_forwards_and_backwards():
+    """Exponentials of a row of nodes by plain numpy, forwards, at rest and backwards."""
+    rng = np.random.default_rng(1)
+    flux = np.abs(rng.normal(size=(NODES, ROWS)))
+    trail = VaryingTrail(flux, 0.05, 0.75, (30, 12))
+    trail.update(flux)
+    trail.advance()
+    _, decay, older, newer = trail.weights
+    nodes = np.arange(trail.line.size)
+    for moved in (0.75, 0.5, 0.0, -0.25, -1.5, 1.0):
+        now, before = trail.fluxes[1, 0], trail.fluxes[2, 0]
+        taken = older[:, None, None] * before + newer[:, None, None] * now
+        modes = decay[:, None, None] * trail.modes[1] + taken
+
+        def there(field: np.ndarray, moved: float = moved) -> np.ndarray:
+            whole = np.floor(nodes - moved).astype(int)
+            part = nodes - moved - whole
+            found = 0.0
+            for k in range(-1, 3):  # Lagrange's cubics
+                others = [one for one in range(-1, 3) if one != k]
+                weight = np.prod([(part - one) / (k - one) for one in others], axis=0)
+                found = found + weight * field[..., np.clip(whole + k, 0, nodes[-1])]
+            return found
+
+        wanted = trail.weights.next_ * there(now) + there(modes).sum(axis=0)
+        trail.move(moved)
+        np.testing.assert_allclose(trail.past, wanted[:, trail.inside].T, rtol=1e-12)
+        trail.update(flux)
+        trail.advance()

@@ -148,5 +148,6 @@ RARE = (
     _sample(cavities.oil_flow, 0.3),
     _sample(transfer.keep_residual, 0.2),
     _sample(transfer.correct_fronts, 0.2),
+    _sample(trail.carry_varying, 0.4, modes=4, fluxes=4, weights=1, **_SURFACE),
 )
 """Of relaxation settings and starved films that few need; compiled when a solve first calls one."""

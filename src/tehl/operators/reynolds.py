@@ -161,7 +161,7 @@ def upstream(field: Array, nodes: int) -> Array:
     return shifted
 
 
-def carried(field: Array, distance: float, *, limited: bool = False, flat: bool = False) -> Array:
+def carried(field: Array, distance: float, *, limited: bool = False) -> Array:
     """Return a field where it was a distance ago; linear beyond both edges.
 
     The weights are the same at all nodes, so that the sum over them is conserved.
@@ -174,19 +174,16 @@ def carried(field: Array, distance: float, *, limited: bool = False, flat: bool 
         Along x in mesh widths; negative where the film moves against x.
     limited : bool
         Whether fronts of oil stay monotone, at second order; else by cubic interpolation.
-    flat : bool
-        Whether the field is constant beyond the edges.
     """
     if distance < 0.0:
-        return carried(field[:, ::-1], -distance, limited=limited, flat=flat)[:, ::-1]
+        return carried(field[:, ::-1], -distance, limited=limited)[:, ::-1]
     whole = round(distance)
-    if abs(distance - whole) < NODE_ROUNDING and not (flat and whole):
+    if abs(distance - whole) < NODE_ROUNDING:
         return upstream(field, whole) if whole else field.copy()
     nodes, s = int(distance), distance - int(distance)
     ghosts = nodes + len(CUBIC) - 1
-    rise = 0.0 if flat else 1.0
-    west = field[:, :1] + rise * np.arange(-ghosts, 0.0) * (field[:, 1:2] - field[:, :1])
-    east = field[:, -1:] + rise * (field[:, -1:] - field[:, -2:-1])
+    west = field[:, :1] + np.arange(-ghosts, 0.0) * (field[:, 1:2] - field[:, :1])
+    east = field[:, -1:] + (field[:, -1:] - field[:, -2:-1])
     wider = np.concatenate([west, field, east], axis=1)
     if limited:  # what of each cell has passed its east face
         step = np.diff(wider, axis=1)
@@ -202,12 +199,23 @@ def carried(field: Array, distance: float, *, limited: bool = False, flat: bool 
         first = ghosts - nodes - 2
         return moved[:, first : first + field.shape[1]]
     found = np.zeros_like(field)
-    for place in CUBIC:
-        others = [one for one in CUBIC if one != place]
-        weight = math.prod((s - one) / (place - one) for one in others)
+    for place, weight in zip(CUBIC, cubic_weights(s), strict=True):
         first = ghosts - nodes - place
         found += weight * wider[:, first : first + field.shape[1]]
     return found
+
+
+def cubic_weights(part: float) -> list[float]:
+    """Return the weights of the nodes at `CUBIC`, in mesh widths upstream, of a place between them.
+
+    Parameters
+    ----------
+    part : float
+        Distance of the place upstream [mesh widths].
+    """
+    return [
+        math.prod((part - one) / (place - one) for one in CUBIC if one != place) for place in CUBIC
+    ]
 
 
 def steady_wedge(mass: Array, spacing: float, order: int) -> Array:

@@ -16,7 +16,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.kernels.energy import trail
 from tehl.operators.line_source import history
-from tehl.operators.reynolds import carried
+from tehl.operators.reynolds import CUBIC, cubic_weights
 
 
 class Trail:
@@ -95,28 +95,22 @@ class VaryingTrail:
         self.inside = slice(beyond, beyond + flux.shape[0])
         wide = np.pad(flux.T, ((0, 0), (beyond, beyond)))
         past = math.ceil(wide.shape[1] / nodes)
-        self.weights = history(steps + past, time_step)
-        self.near = self.weights.near
-        self.fluxes = np.repeat(wide[None], 3, axis=0)  # now, last and the one before it
-        self.modes = np.zeros((2, len(self.weights.decay), *wide.shape))
+        weights = history(steps + past, time_step)
+        self.near = weights.near
+        self.weights = trail.Weights(*(weights.next_, weights.decay, weights.older, weights.newer))
+        self.fluxes = np.repeat(wide[None, None], 3, axis=0)  # now, last and the one before it
+        self.modes = np.zeros((2, len(weights.decay), *wide.shape))
+        self.line, self.wide = np.zeros((1, wide.shape[1])), np.zeros(wide.shape)
         self.past, self.present = np.zeros_like(flux), flux.T
-        for _ in range(past):
+        for _ in range(past if flux.any() else 0):
             self.move(nodes)
             self.advance()
 
     def move(self, nodes: float) -> None:
         """Begin a step in which the surface moves by ``nodes`` mesh widths."""
-        count, ny, nx = self.modes[1].shape
-        decay, older, newer = (
-            one[:, None, None]
-            for one in (self.weights.decay, self.weights.older, self.weights.newer)
-        )
-        _, last, before = self.fluxes
-        modes = (decay * self.modes[1] + older * before + newer * last).reshape(count * ny, nx)
-        self.modes[0] = carried(modes, nodes, flat=True).reshape(count, ny, nx)
-        self.fluxes[0] = carried(last, nodes, flat=True)
-        past = self.weights.next_ * self.fluxes[0] + self.modes[0].sum(axis=0)
-        self.past = past[:, self.inside].T
+        shift = shift_by(nodes)
+        trail.carry_varying(self.modes, self.fluxes, self.weights, shift, self.line, self.wide)
+        self.past = self.wide[:, self.inside].T
 
     def update(self, flux: Array) -> Array:
         """Return the rise of each node by what it took up before this step, (nx, ny)."""
@@ -126,7 +120,7 @@ class VaryingTrail:
     def advance(self) -> None:
         """Accept the present as the last time level of the next step."""
         self.fluxes[2] = self.fluxes[0]
-        self.fluxes[1][:, self.inside] = self.present
+        self.fluxes[1, 0, :, self.inside] = self.present
         self.modes[1] = self.modes[0]
 
     def arrays(self) -> dict[str, Array]:
@@ -146,3 +140,16 @@ def lag_of(steps: float, first: int) -> trail.Lag:
     """
     s = steps - first
     return trail.Lag(first, 0.5 * (s - 1.0) * (s - 2.0), s * (2.0 - s), 0.5 * s * (s - 1.0))
+
+
+def shift_by(nodes: float) -> trail.Shift:
+    """Return the interpolation of a field where it was ``nodes`` mesh widths ago.
+
+    Parameters
+    ----------
+    nodes : float
+        Distance along x; negative where the surface moves against x.
+    """
+    sign, whole = (-1 if nodes < 0.0 else 1), int(abs(nodes))
+    one, two, three, four = cubic_weights(abs(nodes) - whole)
+    return trail.Shift(-sign * (whole + CUBIC[0]), -sign, (one, two, three, four))

@@ -6,7 +6,7 @@ Equation and weights in `tehl.operators.trail`.
 from typing import NamedTuple
 
 from tehl.base.typing import Array
-from tehl.kernels.compiled import kernel
+from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
 
 
@@ -26,6 +26,14 @@ class Weights(NamedTuple):
     decay: Array
     older: Array
     newer: Array
+
+
+class Shift(NamedTuple):
+    """Cubic interpolation along x: of node i by the nodes ``i + first + k step``, k = 0 to 3."""
+
+    first: int
+    step: int
+    weights: tuple[float, float, float, float]
 
 
 @kernel
@@ -67,3 +75,51 @@ def carry(
                 mode = decay * mode + older * r + newer * q
                 modes[0, i, m, j] = mode
                 past[i, j] += mode
+
+
+@helper
+def _shifted(line: Array, shift: Shift, out: Array, at: tuple[int, int, int]) -> None:
+    """Write the first row of ``line`` where it was to a row of ``out``; constant beyond edges."""
+    k, m, j = at
+    nx, first, step = line.shape[1], shift.first, shift.step
+    one, two, three, four = shift.weights
+    last = first + 3 * step
+    begin, end = max(0, -min(first, last)), nx - max(0, first, last)
+    for i in range(begin, end):
+        n = i + first
+        value = one * line[0, n] + two * line[0, n + step]
+        out[k, m, j, i] = value + (three * line[0, n + 2 * step] + four * line[0, n + 3 * step])
+    for side in range(2):
+        for i in range(0 if side == 0 else max(begin, end), min(begin, nx) if side == 0 else nx):
+            value = 0.0
+            for c in range(4):
+                n = min(max(i + first + c * step, 0), nx - 1)
+                value += shift.weights[c] * line[0, n]
+            out[k, m, j, i] = value
+
+
+@kernel
+def carry_varying(
+    modes: Array, fluxes: Array, weights: Weights, shift: Shift, line: Array, past: Array
+) -> None:
+    """Move the exponentials of time by a step, and fill ``past``: the rise by what came before.
+
+    ``modes`` (2, m, ny, nx) and ``fluxes`` (3, 1, ny, nx) have the present first; ``line`` (1, nx)
+    is scratch, ``past`` (ny, nx).
+    """
+    modes, fluxes, weights, line, past = raw((modes, fluxes, weights, line, past))
+    _, count, ny, nx = modes.shape
+    for j in range(ny):
+        for i in range(nx):
+            line[0, i] = fluxes[1, 0, j, i]
+        _shifted(line, shift, fluxes, (0, 0, j))
+        for i in range(nx):
+            past[j, i] = weights.next_ * fluxes[0, 0, j, i]
+        for m in range(count):
+            decay, older, newer = weights.decay[m], weights.older[m], weights.newer[m]
+            for i in range(nx):
+                taken = older * fluxes[2, 0, j, i] + newer * fluxes[1, 0, j, i]
+                line[0, i] = decay * modes[1, m, j, i] + taken
+            _shifted(line, shift, modes, (0, m, j))
+            for i in range(nx):
+                past[j, i] += modes[0, m, j, i]
