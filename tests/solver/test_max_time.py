@@ -10,6 +10,8 @@ from tehl.api.results import ConvergenceError
 from tehl.api.solvers import solve
 from tehl.contact.options import Options
 from tehl.result.solution import CycleReport
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.judging.convergence import DivergedError
 from tehl.solver.judging.goal import Goal
 from tehl.solver.monitor import Silent
 from tests.reference import heated_contact, moes_contact
@@ -75,6 +77,26 @@ def test_a_film_without_error_bars_says_that_the_time_is_over(cut):
     assert len(reports) == 3
     assert result.status.cause == "time_over"
     assert "numerics.max_time = 3600 s is over on " in result.status.message
+
+
+def test_the_film_before_cycles_that_lead_away_is_the_result_where_the_time_ends(monkeypatch):
+    """It was solved again, which there was no time for: nothing was left."""
+    real, ended = FilmSolver._solve_finest, []
+
+    def leads_away(run: FilmSolver) -> None:
+        if run.finest.grid.nx > 150:
+            ended.append(run.finest.grid.nx)
+            raise DivergedError
+        real(run)
+
+    monkeypatch.setattr(FilmSolver, "_solve_finest", leads_away)
+    monkeypatch.setattr(Goal, "is_over", property(lambda _: bool(ended)))
+    with pytest.raises(ConvergenceError, match="max_time is 3600 s, and over") as caught:
+        solve(moes_contact(100.0, 8.0), Options(error=2e-3))
+    result = caught.value.result
+    assert result.status.cause == "error_not_reached"
+    assert result.scaled.film.shape[1] == ended[0] // 2 + 1
+    assert result.errors.film() < 0.1
 
 
 def test_heights_are_not_raised_after_the_time(cut):

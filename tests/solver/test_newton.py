@@ -14,7 +14,7 @@ from tehl.operators.flow import flow_table
 from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
 from tehl.operators.reynolds import Entrainment
 from tehl.result.solution import Status
-from tehl.solver import steady
+from tehl.solver import attempts, steady
 from tehl.solver.cycle.continuation import MOST_NEWTON_STEPS, RAISED_RESIDUAL, Homotopy
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.ladder import BETWEEN_ROUGH, Strategy
@@ -323,14 +323,14 @@ def test_the_last_relaxation_before_newton_continues_to_the_finest_grid(
 ) -> None:
     """Even if coarser grids are not converging; with heat it is the last strategy."""
     seen: list[tuple[str, bool]] = []
-    run = steady._run
+    run = attempts._run
 
     def noted(*args: Any, force: bool, **solved: Any) -> Any:
         seen.append((args[0].strategy.name, force))
         found = run(*args, force=force, **solved)
         return replace(found, status=Status(kind="stalled", cause="stalled"))
 
-    monkeypatch.setattr(steady, "_run", noted)
+    monkeypatch.setattr(attempts, "_run", noted)
     smooth = wavy((20.0, 10.0), (0.01, 2.0, 0.0))
     sheared = smooth.model_copy(update={"lubricant": thinning(smooth)})
     for problem in (smooth, sheared):

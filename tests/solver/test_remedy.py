@@ -15,13 +15,13 @@ from tehl.base.errors import InputError
 from tehl.contact.options import Options
 from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
-from tehl.result.solution import Status
+from tehl.result.solution import Hint, Status
 from tehl.solver import steady
 from tehl.solver.cost import LEAST_SECONDS, end_of_time
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.judging.diagnosis import error_setting
 from tehl.solver.judging.goal import Goal
-from tehl.solver.judging.remedy import working_hint
+from tehl.solver.judging.remedy import solved_on_other_nodes, working_hint
 from tehl.solver.monitor import SILENT
 from tests.cases import ball_tables
 from tests.solver.test_roller import roller
@@ -201,3 +201,33 @@ def test_a_trial_ends_after_the_time_that_is_left(monkeypatch):
     assert "No setting is known" in str(result.status.hint)
     assert limits
     assert max(limits) <= LEAST_SECONDS
+
+
+def test_the_hint_to_a_likely_cause_stays_where_the_time_to_try_others_is_over():
+    failed, law = failure(100.0, points=33).result, Hint("oils shear at such stresses.", {})
+    failed = replace(failed, options=Options(), cost=replace(failed.cost, wall_seconds=50.0))
+
+    def takes_long(*_):
+        time.sleep(1.1 * LEAST_SECONDS)
+        raise InputError("no memory")
+
+    for cause, kept in (("shear_stress", True), ("diverged", False)):
+        status = replace(failed.status, kind="diverged", cause=cause, hint=law)
+        hint = working_hint(replace(failed, status=status), takes_long, SILENT, 0.0)
+        assert (hint == law) is kept
+
+
+@pytest.mark.parametrize("seconds", [0.5, 30.0])
+def test_other_nodes_keep_the_lines_of_a_roller_and_need_a_part_of_the_time(seconds):
+    failed = replace(failure(100.0, points=33).result, problem=roller(50.0), options=Options())
+    status = Status(kind="stalled", cause="stalled", message="x")
+    failed = failed.but(cost=replace(failed.cost, wall_seconds=20.0), status=status)
+    tried: list[tuple[int, int]] = []
+
+    def fails(_, options: Options):
+        tried.append(options.points)
+        raise InputError("no memory")
+
+    end = time.perf_counter() + seconds
+    assert solved_on_other_nodes(failed, fails, SILENT, end) is None
+    assert tried == ([] if seconds < 1.0 else [(321, 161), (385, 193)])

@@ -2,13 +2,10 @@
 
 import platform
 import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cache, partial
 from importlib.metadata import PackageNotFoundError, version
-
-import numpy as np
 
 from tehl.base.errors import InputError
 from tehl.base.units import percentage
@@ -23,7 +20,6 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.estimate.starvation import FORMULA_ERROR, Flooded, check_supply
 from tehl.kernels.warmup import warm_up
-from tehl.operators.dry import at_loaded_ends
 from tehl.operators.heights import heights_of, units_of
 from tehl.operators.resolution import resolution_of
 from tehl.result.fields import SurfaceHeights
@@ -33,141 +29,24 @@ from tehl.result.solution import (
     CycleReport,
     Provenance,
     Solution,
-    Status,
     Supplied,
 )
-from tehl.result.transient import TIME_OVER
+from tehl.solver.attempts import NO_MEMORY, Attempt, Climb
 from tehl.solver.cost import Clock, end_of_time
-from tehl.solver.cycle.continuation import TouchingError
-from tehl.solver.cycle.film_solver import FilmSolver, Solved
-from tehl.solver.cycle.hierarchy import Hierarchy
-from tehl.solver.cycle.ladder import Strategy, ladder
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.ladder import ladder
 from tehl.solver.cycle.level import Level
-from tehl.solver.judging.convergence import TimeIsOverError
-from tehl.solver.judging.diagnosis import diverged, time_over
 from tehl.solver.judging.extrapolation import Outputs, extrapolated, outputs_of
 from tehl.solver.judging.film_summary import central_value, film_summary
 from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.outputs import oil_balance
 from tehl.solver.judging.remedy import Reached, solved_on_other_nodes, working_hint
-from tehl.solver.judging.verdict import TOO_COARSE, touching, verdict
+from tehl.solver.judging.verdict import TOO_COARSE
 from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.physics.dynamics import with_dynamics
 
-NO_MEMORY = "memory"
-GRID_CAUSES = (
-    NO_MEMORY,
-    "grid_too_coarse",
-    "error_not_reached",
-    "domain_too_small",
-    "inlet_too_short",
-    "sides_too_close",
-)
-"""Causes of failure that no other strategy removes."""
 WITHOUT_ERROR = (NO_MEMORY, "error_not_reached", *TOO_COARSE)
 """Causes of failure for which a larger error may converge."""
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Attempt:
-    """One strategy tried: its run, its status, and whether it met the stopping criterion."""
-
-    run: FilmSolver
-    status: Status
-    reached: bool
-    reached_before: Reached | None = None
-    """The best film on coarser grids of all strategies, between smooth surfaces."""
-
-    @property
-    def is_final(self) -> bool:
-        """Whether another strategy would end the same way."""
-        touching = self.reached and self.status.cause == "asperity_contact"
-        return self.status.converged or self.status.cause in GRID_CAUSES or touching
-
-    @property
-    def rank(self) -> tuple[bool, bool, bool, float]:
-        """Sorting key, best first: final, converged, finite, least error of a grid too coarse."""
-        error = self.run.film_error() if self.status.cause in GRID_CAUSES else 0.0
-        is_wrong = self.status.kind == "diverged" or self.status.cause == TIME_OVER
-        return not self.is_final, not self.reached, is_wrong, error
-
-
-@dataclass(frozen=True, slots=True)
-class Climb:
-    """The strategies of a ladder, tried in turn on the grid of a plan."""
-
-    scaled: ScaledProblem
-    goal: Goal
-    monitor: Monitor
-    solver: Callable[[Hierarchy, Strategy], FilmSolver]
-
-    def best(self, plan: Options, rungs: tuple[Strategy, ...]) -> Attempt:
-        """Return the best attempt.
-
-        Parameters
-        ----------
-        plan : Options
-            With the nodes of the finest grid.
-        rungs : tuple of Strategy
-            Fastest first.
-        """
-        best: Attempt | None = None
-        solved: tuple[Solved, ...] = ()
-        steps = tuple(self._steps(plan, rungs))
-        for number, (grid, strategy) in enumerate(steps):
-            if number:
-                self.monitor.message(f"falling back to {strategy.description}")
-            if grid is not plan:
-                plan, solved = grid, ()
-            # Newton's method is expensive: the cycles before it are tried to the end
-            force = all(one.newton for _, one in steps[number + 1 :])
-            attempt = self._attempt(plan, strategy, solved, force=force)
-            best = _better(best, attempt)
-            while attempt.run.wanted is not None and not self.goal.is_over:
-                plan = plan.on_points(*attempt.run.wanted)
-                self.monitor.message(f"another grid: {grid_size(plan.shape[::-1])}")
-                del attempt  # frees its grids, unless it is the best one
-                attempt = self._attempt(plan, strategy, force=force)
-                best = _better(best, attempt)
-            solved = attempt.run.solved
-            if attempt.is_final or self.goal.is_over:
-                break
-            del attempt
-        assert best is not None
-        return best
-
-    def _steps(
-        self, plan: Options, rungs: tuple[Strategy, ...]
-    ) -> Iterator[tuple[Options, Strategy]]:
-        """Yield the strategies, each with its grid.
-
-        Those with another wedge order than that of ``plan`` have as many lines as columns, but of
-        wide contacts. Where that is more than planned, the first ones are tried so before: with few
-        lines the edge of scarce oil may not rest.
-        """
-        own = tuple(one for one in rungs if one.wedge_order in (None, plan.order))
-        yield from ((plan, one) for one in own)
-        lines, nodes = plan.shape
-        if lines > 1 and self.scaled.groups.ellipticity >= 1.0 and len(own) < len(rungs):
-            plan = self.goal.fitting(plan.on_points(nodes, nodes))
-            yield from ((plan, one) for one in own if lines < nodes)
-        for one in rungs[len(own) :]:
-            if one.wedge_order != plan.order:
-                plan = plan.model_copy(update={"wedge_order": one.wedge_order})
-            yield plan, one
-
-    def _attempt(
-        self,
-        plan: Options,
-        strategy: Strategy,
-        solved: tuple[Solved, ...] = (),
-        *,
-        force: bool,
-    ) -> Attempt:
-        """Run a strategy on the grid of a plan, from grids that are solved; judge its result."""
-        grid = at_loaded_ends(finest_grid(self.scaled, plan), self.scaled.groups)
-        hierarchy = Hierarchy.on(grid, self.scaled, plan, strategy.first_relaxation)
-        return _run(self.solver(hierarchy, strategy), force=force, solved=solved)
 
 
 def solve(
@@ -371,42 +250,6 @@ def _surfaces(run: FilmSolver) -> SurfaceHeights | None:
         run.finest.grid.unfold(field) * unit for field in (heights.surface_1, heights.surface_2)
     )
     return SurfaceHeights(surface_1=first, surface_2=second)
-
-
-def _better(best: Attempt | None, attempt: Attempt) -> Attempt:
-    """Return the better attempt, of equals the later one, with the best film on coarser grids."""
-    run, status = attempt.run, attempt.status
-    films = [] if best is None else [best.reached_before]
-    if not (status.converged or run.hierarchy.scaled.problem.is_rough):
-        films.append(run.reached_before(last=status.cause == NO_MEMORY))
-    known = [film for film in films if film is not None]
-    kept = attempt if best is None or attempt.rank <= best.rank else best
-    return replace(kept, reached_before=min(known, key=lambda film: film[1], default=None))
-
-
-def _run(run: FilmSolver, *, force: bool, solved: tuple[Solved, ...]) -> Attempt:
-    """Run a strategy and judge its result, finite or not."""
-    with np.errstate(all="ignore"):  # divergence ends in a status, not in warnings
-        try:
-            reached = run.solve(force=force, solved=solved)
-        except TouchingError as error:
-            return Attempt(run=run, status=touching(run, error.part), reached=True)
-        except TimeIsOverError:
-            if run.goal.is_open and run.keep_solved(solved):
-                run.goal.obstacle = f"numerics.max_time is {run.options.max_time:g} s, and over"
-                return Attempt(run=run, status=verdict(run, reached=True), reached=True)
-            run.hierarchy.salvage()
-            return Attempt(run=run, status=time_over(run), reached=False)
-        except ArithmeticError:
-            run.hierarchy.salvage()
-            return Attempt(run=run, status=diverged(run), reached=False)
-        except MemoryError:
-            nx, ny = run.finest.grid.points
-            del run.levels[len(run.traces) :]
-            message = f"The memory is not enough for {grid_size((nx, ny))}."
-            status = Status(kind="not_converged", cause=NO_MEMORY, message=message)
-            return Attempt(run=run, status=status, reached=False)
-    return Attempt(run=run, status=verdict(run, reached=reached), reached=reached)
 
 
 def _result(

@@ -189,7 +189,9 @@ class FilmSolver(GridIteration):
         known : tuple of Solved
             Grids that another strategy solved.
         """
-        last = max((*known, *self.solved), key=lambda one: len(one.traces), default=None)
+        grids = [level.grid for level in self.levels]
+        mine = [one for one in (*known, *self.solved) if one.grid in grids]
+        last = max(mine, key=lambda one: len(one.traces), default=None)
         if last is None or len(last.traces) <= GRIDS_WITHOUT_BARS:
             return False
         del self.levels[len(last.traces) :]

@@ -27,8 +27,9 @@ TRIAL_TIME_FACTOR = 3.0
 Solve = Callable[[ContactProblem, Options], Solution]
 Reached = tuple[tuple[int, int], float]
 """Nodes (nx, ny) and relative error of a film that converged."""
-OTHER_GRIDS = 2
-"""Other numbers of nodes that are tried."""
+OTHER_GRIDS, LEAST_TRIAL = 2, 0.2
+"""Other numbers of nodes that are tried, and least time for that over that of the failed solve:
+the sums of a roller on 321 x 321 nodes alone take a sixth of it."""
 
 
 def solved_on_other_nodes(
@@ -49,12 +50,13 @@ def solved_on_other_nodes(
         return None
     scaled = ScaledProblem.of(failed.problem)
     lines, nodes = planned(scaled, failed.options).shape
-    part = 1.0 if scaled.groups.ellipticity >= 1.0 else min((lines - 1) / (nodes - 1), 1.0)
+    keeps = scaled.groups.ellipticity < 1.0 or failed.problem.contact.has_lines
+    part = min((lines - 1) / (nodes - 1), 1.0) if keeps else 1.0
     nodes = nodes if part < 1.0 else max(lines, nodes)
     for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHER_GRIDS]:
-        if end <= time.perf_counter():
-            break
         left = _time_of_trial(failed, end)
+        if left < LEAST_TRIAL * failed.cost.wall_seconds:
+            break
         points = (more, 1 if failed.problem.contact.is_line else round(part * (more - 1)) + 1)
         monitor.message(f"trying {grid_size(points)}")
         options = failed.options.on_points(*points).model_copy(update={"max_time": left})
@@ -111,9 +113,17 @@ def working_hint(
         (nx, ny), error = reached
         return Hint(f"{grid_size((nx, ny))} converged.", error_setting(error))
     if is_short and end <= time.perf_counter():
-        return Hint("The time to try other settings was over: more numerics.max_time tries more.")
+        return _untried(failed)
     other = "; lower or longer asperities may" if failed.problem.is_rough else ""
     return Hint(f"No setting is known with which this contact converges{other}.")
+
+
+def _untried(failed: Solution) -> Hint:
+    """Return the hint where the time to try settings was over: that to a likely cause, if known."""
+    status = failed.status
+    if status.kind == "diverged" and status.cause != "diverged" and status.hint is not None:
+        return status.hint
+    return Hint("The time to try other settings was over: more numerics.max_time tries more.")
 
 
 def _time_of_trial(failed: Solution, end: float) -> float:

@@ -23,12 +23,13 @@ from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import MovingHeights
 from tehl.result.solution import ConvergenceError, Hint, Solution, Status
 from tehl.result.transient import TIME_OVER, StepReport, TransientSolution
+from tehl.solver.attempts import Attempt
 from tehl.solver.cost import Clock, end_of_time
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
 from tehl.solver.judging.measures import is_resolved, mid_film_stress, mid_film_traction
 from tehl.solver.monitor import SILENT, StepMonitor
-from tehl.solver.steady import Attempt, try_strategies
+from tehl.solver.steady import try_strategies
 from tehl.solver.transient.checks import check_peaks, check_size, check_stride, check_waves
 from tehl.solver.transient.oil import Lead
 from tehl.solver.transient.snapshot import ANEW, COLUMNS, Record, Snapshot, kept_steps
