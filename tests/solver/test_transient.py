@@ -10,8 +10,10 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import ConvergenceError, TransientResult
 from tehl.contact.options import Domain, Options
 from tehl.estimate.scaling import scales
+from tehl.result.solution import Status
 from tehl.solver.cost import Clock
 from tehl.solver.monitor import SILENT
+from tehl.solver.transient import run
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import pack, unpack
 from tehl.solver.transient.step import StepError
@@ -72,6 +74,23 @@ def test_a_run_starts_from_a_film_as_accurate_as_asked_if_a_tight_one_is_not_rea
     tight = OPTIONS.model_copy(update={"accuracy": "tight"})
     with pytest.raises(ConvergenceError, match="steady film at time zero did not converge"):
         solve_transient(case, tight)
+
+
+def test_a_tight_start_that_misses_the_error_gives_way_to_the_accuracy_of_the_options(monkeypatch):
+    """As one whose cycles take the time of the finer grid that the error needs."""
+    solved, tried = run.try_strategies, []
+
+    def without_time(problem, options, **others):
+        attempt, result = solved(problem, options, **others)
+        tried.append(options.accuracy)
+        if options.accuracy == "tight":
+            status = Status(kind="not_converged", cause="error_not_reached", message="too coarse")
+            result = result.but(status=status)
+        return attempt, result
+
+    monkeypatch.setattr(run, "try_strategies", without_time)
+    assert solve_transient(in_time(0.2), OPTIONS).status.converged
+    assert tried == ["tight", OPTIONS.accuracy]
 
 
 def test_the_film_at_time_zero_is_the_steady_film():

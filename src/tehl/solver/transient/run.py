@@ -39,8 +39,6 @@ SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
 """Relaxations of a step, fastest first; and those for heated or shear-thinning films."""
 START_TOLERANCE, TIGHT_TIME = 1e-7, 0.5
 """Tolerance of the steady film at time zero, and part of the time for it."""
-UNSETTLED = ("stalled", "too_few_cycles", TIME_OVER)
-"""Causes of a failed start that another accuracy may remove."""
 NEARLY_CONVERGED = 1e-6
 """Change of P in the last cycle of a time step that only a tight tolerance rejects."""
 
@@ -367,8 +365,8 @@ def _steady_start(
 ) -> tuple[Attempt, Solution]:
     """Solve for the steady film at time zero, with the load of that time, rough or smooth.
 
-    Heat and film may alternate by less than the mesh errs: then the accuracy of the options is
-    enough.
+    Heat and film may alternate by less than the mesh errs, and a tight solve may take all its time
+    on a grid that is too coarse: then the accuracy of the options is enough.
     """
     tight = options.model_copy(
         update={
@@ -379,7 +377,7 @@ def _steady_start(
     now, end = time.perf_counter(), end_of_time(options)
     until = now + TIGHT_TIME * (end - now)
     attempt, result = try_strategies(problem, tight, monitor=monitor, rough=rough, until=until)
-    if result.status.cause in UNSETTLED and options.accuracy != "tight":
+    if not result.status.converged and options.accuracy != "tight":
         attempt, result = try_strategies(problem, options, monitor=monitor, rough=rough, until=end)
     result = result.but(options=options)
     if not result.status.converged:
