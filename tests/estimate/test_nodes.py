@@ -53,12 +53,15 @@ def test_a_film_that_is_thinnest_at_the_exit_needs_few_lines_and_one_at_the_side
     assert (ny - 1) == part * (nx - 1)
 
 
-@pytest.mark.parametrize(("radius_ratio", "is_quarter"), [(12.0, False), (20.0, True)])
+@pytest.mark.parametrize(
+    ("radius_ratio", "supply", "is_quarter"),
+    [(12.0, 0.3, False), (20.0, 0.3, True), (20.0, 0.5, False), (50.0, 0.5, True)],
+)
 def test_a_film_short_of_oil_is_thinnest_at_the_exit_of_more_slender_contacts_alone(
-    radius_ratio: float, is_quarter: bool
+    radius_ratio: float, supply: float, is_quarter: bool
 ) -> None:
     flooded = moes_contact(5000.0, 8.0, radius_ratio=radius_ratio)
-    starved = flooded.model_copy(update={"supply": Supply(ratio=0.5)})
+    starved = flooded.model_copy(update={"supply": Supply(ratio=supply)})
     assert is_thinnest_at_exit(ScaledProblem.of(flooded))
     assert is_thinnest_at_exit(ScaledProblem.of(starved)) is is_quarter
 

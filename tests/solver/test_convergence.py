@@ -21,18 +21,20 @@ from tehl.solver.judging.convergence import (
 )
 from tehl.solver.judging.goal import MOST_EXPECTED, comparable
 from tehl.solver.judging.grid_errors import (
+    AGREED,
+    AGREED_ON_TWO,
     COMBINED,
     GROWTH_AT_SIDES,
     LEAST_CENTRAL,
     LEAST_MINIMUM,
+    LEAST_OF_SCARCE,
     PART_AT_SIDES,
     THIRD_CHANGE,
     THIRD_PART,
-    UNEVEN,
     error_estimate,
     extrapolated_bars,
-    further_errors,
 )
+from tehl.solver.judging.value_errors import UNEVEN, further_errors
 from tehl.solver.physics.lag import LARGEST_LOG_STEP, Lag, damped
 
 
@@ -203,6 +205,30 @@ def test_a_minimum_at_the_exit_is_not_extrapolated_by_an_order_shown_by_chance()
     found = error_estimate(traces, 3, least=0.005, most=most, extrapolate=True, thinnest="exit")
     assert not found.extrapolated
     assert found.discretisation_minimum > 7.665 / 7.653 - 1.0
+
+
+@pytest.mark.parametrize(
+    ("films", "bar"),
+    [
+        ((1.0001, 1.0, 1.0), LEAST_OF_SCARCE),
+        ((1.02, 1.002, 1.0), AGREED[0] * 0.018 + AGREED[1] * 0.002),
+        ((1.078, 1.008, 1.0), LEAST_MINIMUM * 0.02),
+        ((1.002, 1.0), AGREED_ON_TWO * 0.002),
+        ((1.01, 1.0), LEAST_MINIMUM * 0.02),
+    ],
+)
+def test_films_of_scarce_oil_that_agree_need_no_bar_to_expect(
+    films: tuple[float, ...], bar: float
+) -> None:
+    """A rig between asperities (M = 23,200): 1.457, 1.453 and 1.453 on 193 to 769 nodes."""
+    traces = [GridTrace() for _ in films]
+    for trace, film in zip(traces, films, strict=True):
+        trace.note(film, film)
+        trace.note(film, film)
+    found = error_estimate(traces, 3, least=0.02, scarce=True)
+    assert found.discretisation_minimum == pytest.approx(bar)
+    flooded = error_estimate(traces, 3, least=0.02)
+    assert flooded.discretisation_minimum == pytest.approx(LEAST_MINIMUM * 0.02)
 
 
 def factors(*values: float) -> Factors:

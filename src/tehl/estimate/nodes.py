@@ -12,7 +12,7 @@ from tehl.estimate.grid import END_CELL, END_FILM, Grid, can_mirror, crowding
 from tehl.estimate.line import LINE_ROUGH_NODES, line_bar, line_points
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.settled import crowds_at_ends, settled
-from tehl.estimate.starvation import is_starved, supplied_film
+from tehl.estimate.starvation import is_starved, supplied_film, supply_ratio
 from tehl.estimate.summits import shared_load
 from tehl.estimate.third_order import third_order_bar
 
@@ -44,13 +44,17 @@ EXIT_RATIO, EXIT_LOAD, LEAST_QUARTER = 4.0, 0.56, 32
 the lines is enough: of 32 such contacts (M = 41 to 20,000, L up to `LIMITED_SPEED`) it changes the
 minimum by less than 0.3 %; of 12 others by up to 8 %, as the film is thinnest at the sides. Least
 intervals of that quarter."""
-EXIT_STARVED = 1.25
-"""Factor on that ratio where oil is scarce: just beyond it the minimum of an outer ring (M = 8,058,
-a_y/a_x = 5.4) errs by 5 % with a quarter; five contacts with 1.5 to 2.7 times the ratio need no
-more."""
+EXIT_STARVED, EXIT_SCARCE, SCARCE = 1.25, 2.25, 0.4
+"""Factors on that ratio where oil is scarce, up to that supply over the flooded one and beyond: up
+to it the minimum of an outer ring (M = 8,058, a_y/a_x = 5.4) errs by 5 % with a quarter of the
+lines just beyond the ratio, three contacts with 1.7 to 2.8 times it by less than 0.1 %; beyond that
+supply four of ten with 1.3 to 2.2 times the ratio err by 1 to 2 %, of five others none."""
 LINES_BAR, ENOUGH_LINES = 0.2, 1.5
 """Factor of `lines_bar`, within a factor of two for 20 contacts with M = 500 to 31,000; and that
 bar over the error to leave from which as many lines as columns are planned."""
+LINES_OF_SCARCE, SCARCE_AT_SIDE = 0.7, 0.8
+"""`ENOUGH_LINES` and `LEAST_AT_SIDE` of slender contacts with scarce oil: of ten of them (M = 500
+to 6,300) the minimum at a side errs by 0.1 to 2 bars on as many lines as columns."""
 LEAST_AT_SIDE = 0.4
 """Least bar of a flooded minimum film at the sides over `lines_bar`: of 5 circles (M = 404 to 673,
 L = 2 to 4) it errs by 0.2 to 0.4 of it, and by up to 4 bars without."""
@@ -278,7 +282,8 @@ def _lines(scaled: ScaledProblem, domain: Domain, nodes: int, left: float) -> in
     if is_thinnest_at_exit(scaled) and quarter > LEAST_QUARTER:
         return quarter
     is_slender = scaled.groups.ellipticity >= SLENDER_RATIO_OF_NODES
-    if is_slender and lines_bar(scaled, domain, half) <= ENOUGH_LINES * left:
+    enough = LINES_OF_SCARCE if scaled.problem.supply is not None else ENOUGH_LINES
+    if is_slender and lines_bar(scaled, domain, half) <= enough * left:
         return half
     is_enough = is_slender or side_bar(scaled, domain, nodes) <= left
     return nodes if is_enough else 2 * nodes - 1
@@ -291,7 +296,8 @@ def is_thinnest_at_exit(scaled: ScaledProblem) -> bool:
     """
     groups, problem = scaled.groups, scaled.problem
     least = max(EXIT_RATIO, EXIT_LOAD * groups.M**0.25)
-    least *= 1.0 if problem.supply is None else EXIT_STARVED
+    if problem.supply is not None:
+        least *= EXIT_STARVED if supply_ratio(scaled) < SCARCE else EXIT_SCARCE
     is_slender = groups.ellipticity >= least and groups.L <= LIMITED_SPEED
     return is_slender and problem.is_even_in_y and problem.asperities is None
 
@@ -317,16 +323,21 @@ def lines_bar(scaled: ScaledProblem, domain: Domain, rows: float) -> float:
 def side_bar(scaled: ScaledProblem, domain: Domain, rows: float) -> float:
     """Return the least error bar of a minimum film at the sides.
 
-    Zero with scarce oil, and for turned ellipses, whose `third_order_bar` contains it.
+    Zero where none is known: between asperities and for wide contacts with scarce oil, for turned
+    ellipses, whose `third_order_bar` contains it, and where films are thinnest at the exit.
 
     Parameters
     ----------
     scaled, domain, rows
         As in `lines_bar`.
     """
-    if scaled.problem.supply is not None or scaled.groups.skew:
-        return 0.0
     groups = scaled.entering
+    if scaled.groups.skew:
+        return 0.0
+    if scaled.problem.supply is not None:
+        is_known = groups.ellipticity >= SLENDER_RATIO_OF_NODES and not is_thinnest_at_exit(scaled)
+        is_known = is_known and scaled.problem.asperities is None
+        return SCARCE_AT_SIDE * lines_bar(scaled, domain, rows) if is_known else 0.0
     if groups.ellipticity >= 1.0:
         return LEAST_AT_SIDE * lines_bar(scaled, domain, rows)
     factor, by_load, by_shape = WIDE_MINIMUM
