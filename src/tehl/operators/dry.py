@@ -21,10 +21,11 @@ from tehl.operators.transfer import refine
 MOST_DESCENTS, DRY_CHANGE = 400, 1e-4
 """Most iterations, and mean change of the pressure over its mean at which they end: a thousandth
 of it is then left, as little as a start and the place of a spike need."""
-SEARCHED, AT_END = (65, 129), 0.975
-"""Nodes on which the loaded part of a roller is searched, and where it goes on to the end: lines
-that crowd there resolve it as well. A lundberg one (M = 75) has residuals that fall by 0.58 per
-cycle else, by less than 0.5 so."""
+SEARCHED, AT_END = (65, 129), 0.2
+"""Nodes on which the loaded part of a roller is searched, and its distance from the end, in
+half-widths, below which it reaches it: lundberg profiles have 0.1 to 0.17, and lines that crowd at
+the end resolve it as well. With other lines one (M = 75) leaves 0.58 of the residual per cycle,
+else less than 0.5. Those of ISO 16281 have 0.28 and more."""
 STEEP_LINES = 65
 """Lines up to which the pressure is steep from line to line where these crowd at the ends. On more
 it starts from that of half as many."""
@@ -144,7 +145,7 @@ def at_loaded_ends(grid: Grid, groups: Groups) -> Grid:
     first, last = np.nonzero(loaded)[0][[0, -1]]
     y = np.linspace(-1.0, 1.0, SEARCHED[1])
     found = (0.5 * coarse.dy - float(y[first]), 0.5 * coarse.dy + float(y[last]))
-    below, above = (1.0 if one > AT_END else one for one in found)
+    below, above = (1.0 if (1.0 - e) * groups.ellipticity < AT_END else e for e in found)
     edges = (below, above)
     if edges == grid.edges:
         return grid
