@@ -99,6 +99,14 @@ def test_the_film_before_cycles_that_lead_away_is_the_result_where_the_time_ends
     assert result.errors.film() < 0.1
 
 
+def test_a_film_that_lacks_time_names_what_may_keep_it_from_converging(cut):
+    contact = heated_contact(1.9, hertz_pressure=1.5e9, entrainment_speed=20.0)
+    result, _ = cut(contact, Options(error=2e-3), 3)
+    assert result.status.cause == "time_over"
+    assert "Likely cause: lubricant.shear.law = newtonian" in result.status.message
+    assert "lubricant.shear" in result.status.hint.settings
+
+
 def test_heights_are_not_raised_after_the_time(cut):
     contact = wavy((57.21, 10.52), (0.4, 0.25, 0.0))
     for cycles in range(20, 60, 8):

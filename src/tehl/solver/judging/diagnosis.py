@@ -100,15 +100,15 @@ def not_reached(run: FilmSolver) -> Status:
 def time_over(run: FilmSolver) -> Status:
     """Return the status of a run whose time was over before a grid with error bars converged."""
     points = run.levels[max(len(run.traces) - 1, 0)].grid.points
-    return Status(
-        kind="not_converged",
-        cause=TIME_OVER,
-        message=(
-            f"numerics.max_time = {run.options.max_time:g} s is over on {grid_size(points)}, and "
-            "no coarser grid converged to a film with error bars."
-        ),
-        hint=Hint("Take a longer numerics.max_time, or fewer nodes (numerics.points)."),
+    message = (
+        f"numerics.max_time = {run.options.max_time:g} s is over on {grid_size(points)}, and no "
+        "coarser grid converged to a film with error bars."
     )
+    hint = Hint("Take a longer numerics.max_time, or fewer nodes (numerics.points).")
+    cause = _likely_cause(run)
+    if cause is not None:
+        message, hint = f"{message} Likely cause: {cause.message}", cause.hint
+    return Status(kind="not_converged", cause=TIME_OVER, message=message, hint=hint)
 
 
 def _likely_cause(run: FilmSolver) -> LikelyCause | None:
