@@ -19,7 +19,7 @@ from tehl.solver.judging.convergence import (
     recedes,
     touching_converged,
 )
-from tehl.solver.judging.goal import MOST_EXPECTED, comparable
+from tehl.solver.judging.film_errors import MOST_EXPECTED, comparable
 from tehl.solver.judging.grid_errors import (
     AGREED,
     AGREED_ON_TWO,
@@ -188,6 +188,24 @@ def test_a_film_that_grows_at_the_sides_is_extrapolated_from_two_grids(
     found = error_estimate(traces, 3, extrapolate=True, thinnest="sides")
     assert found.extrapolated == (0.0 < growth < GROWTH_AT_SIDES)
     assert found.discretisation_minimum == pytest.approx(bar)
+
+
+def test_a_central_film_of_scarce_oil_may_shrink_while_that_at_the_sides_grows() -> None:
+    """A rig (M = 3,960): 2.480 and 2.466 in the middle, 0.960 and 0.980 at the sides."""
+    traces = [GridTrace(), GridTrace()]
+    for trace, central, minimum in zip(traces, (2.480, 2.466), (0.960, 0.980), strict=True):
+        trace.note(central, minimum)
+        trace.note(central, minimum)
+        trace.measured = {"film_central": central, "film_minimum": minimum, "pressure_max": 1.0}
+        trace.measured |= {"spike": 0.5, "excess": 0.01}
+        trace.outputs = Mock()
+    assert not error_estimate(traces, 3, extrapolate=True, thinnest="sides").extrapolated
+    found = error_estimate(traces, 3, extrapolate=True, thinnest="sides", scarce=True)
+    alone = error_estimate(traces, 3, scarce=True)
+    assert found.extrapolated
+    assert found.discretisation_minimum == pytest.approx(PART_AT_SIDES * 0.020 / 0.980)
+    added = found.discretisation_central - alone.discretisation_central
+    assert added == pytest.approx(0.014 / 2.466 / 3.0)
 
 
 def test_a_minimum_at_the_exit_is_not_extrapolated_by_an_order_shown_by_chance() -> None:

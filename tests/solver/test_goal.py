@@ -24,12 +24,12 @@ from tehl.estimate.third_order import third_order_bar
 from tehl.io.templates import template_text
 from tehl.result.bars import ErrorEstimate
 from tehl.solver.cycle.iteration import GridIteration
+from tehl.solver.judging.film_errors import PART_AT_EXIT
 from tehl.solver.judging.film_summary import film_summary
 from tehl.solver.judging.goal import (
     FLOODED_PART,
     MOST_OTHERS,
     MOST_SPARE,
-    PART_AT_EXIT,
     SPARE_PART,
     Goal,
 )
@@ -329,6 +329,15 @@ def test_a_minimum_that_errs_by_the_mesh_along_y_alone_gets_as_many_more_lines_a
     options = settled(scaled.problem, Options())
     level = with_minimum_at(thinnest, finest_grid(scaled, options.on_points(97, 97)))
     assert Goal(scaled, options).more_lines(level, errors(0.008, minimum)) == lines
+
+
+def test_a_minimum_at_the_sides_gets_the_most_lines_where_the_mesh_width_cannot_be_halved() -> None:
+    scaled = ScaledProblem.of(moes_contact(400.0, 1.0))
+    options = settled(scaled.problem, Options())
+    level = with_minimum_at(0.9, finest_grid(scaled, options.on_points(97, 161)))
+    assert Goal(scaled, options).more_lines(level, errors(0.008, 0.025)) is None
+    limited = options.model_copy(update={"max_memory": 1})
+    assert Goal(scaled, limited).more_lines(level, errors(0.008, 0.025)) == 193
 
 
 @pytest.mark.parametrize(

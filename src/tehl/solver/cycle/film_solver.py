@@ -30,7 +30,8 @@ from tehl.solver.judging.convergence import (
     converged,
     film_converged,
 )
-from tehl.solver.judging.goal import Goal, estimated_errors
+from tehl.solver.judging.film_errors import estimated_errors
+from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.measures import is_resolved, nodal_film
 from tehl.solver.monitor import SILENT, Monitor
 

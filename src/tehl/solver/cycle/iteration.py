@@ -32,7 +32,8 @@ from tehl.solver.judging.convergence import (
     temperature_converged,
 )
 from tehl.solver.judging.extrapolation import outputs_of
-from tehl.solver.judging.goal import Goal, estimated_errors
+from tehl.solver.judging.film_errors import estimated_errors
+from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.measures import film_numbers, measured, nodal_film
 from tehl.solver.monitor import Monitor
 from tehl.solver.physics.thermal import Coupling

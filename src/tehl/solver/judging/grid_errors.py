@@ -154,7 +154,7 @@ def error_estimate(  # noqa: PLR0913 (one estimate)
     doubtful = thinnest == "exit"
     combined: Any = extrapolated_bars(traces, order, least, doubtful) if extrapolate else None
     if extrapolate and thinnest == "sides" and order > 2:
-        combined = _of_two_grids(traces, {**named, **(combined or {})}) or combined
+        combined = _of_two_grids(traces, {**named, **(combined or {})}, scarce) or combined
     if combined and (order < 3 or max({**named, **combined}.values()) < max(bars)):
         combined = {key: max(bar, LEAST_COMBINED * least) for key, bar in combined.items()}
         estimate = replace(estimate, extrapolated=True, **combined)
@@ -233,17 +233,26 @@ def extrapolated_bars(
     return found
 
 
-def _of_two_grids(traces: list[GridTrace], known: Mapping[str, float]) -> dict[str, float] | None:
-    """Return bars of a film at the sides by two grids, at most ``known``; None if films shrink."""
+def _of_two_grids(
+    traces: list[GridTrace], known: Mapping[str, float], scarce: bool
+) -> dict[str, float] | None:
+    """Return bars of a film at the sides by two grids, at most ``known``; None if films shrink.
+
+    The central film of scarce oil may, as most of it is the oil that enters.
+    """
     measured = [one.measured for one in traces[-2:]]
     if traces[-2].outputs is None or not all(measured):
         return None
     found = dict(known)
     for key, name in zip(COMBINED, FILM, strict=True):
         middle, last = (one[name] for one in measured)
-        if not 0.0 < last - middle < GROWTH_AT_SIDES * last:
+        change = (last - middle) / last if last > 0.0 else math.inf
+        if scarce and name == FILM[0] and abs(change) < GROWTH_AT_SIDES * SHARED:
+            found[key] = known[key] + abs(change) / 3.0
+        elif 0.0 < change < GROWTH_AT_SIDES:
+            found[key] = min(known[key], PART_AT_SIDES * change)
+        else:
             return None
-        found[key] = min(known[key], PART_AT_SIDES * (last - middle) / last)
     return found
 
 
