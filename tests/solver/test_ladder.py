@@ -30,7 +30,7 @@ from tehl.solver.cycle.relaxation import BROAD, FAST, THIN
 from tehl.solver.judging.convergence import DivergedError
 from tehl.solver.judging.measures import nodal_film
 from tehl.solver.monitor import SILENT
-from tests.reference import moes_contact
+from tests.reference import heated_contact, moes_contact
 from tests.solver.test_line import line
 
 OPTIONS = Options(extrapolate=True)
@@ -157,6 +157,30 @@ def test_a_strategy_goes_on_from_the_grids_that_another_one_solved(
     assert found.film_scaled.central == pytest.approx(usual.film_scaled.central, rel=2e-3)
     assert found.film_scaled.minimum == pytest.approx(usual.film_scaled.minimum, rel=2e-3)
     assert found.errors.central == pytest.approx(usual.errors.central, rel=0.2)
+
+
+def test_a_grid_that_diverges_before_it_is_heated_has_a_trace_of_its_own(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    whole = FilmSolver._start_heat
+
+    def fails(run: FilmSolver, levels: Sequence[Level]) -> int:
+        if len(levels) == 2:
+            raise DivergedError
+        return whole(run, levels)
+
+    monkeypatch.setattr(FilmSolver, "_start_heat", fails)
+    attempt, found = steady.try_strategies(
+        heated_contact(), OPTIONS.on_points(129, 129), monitor=SILENT, rough=False
+    )
+    run = attempt.run
+    assert [trace.columns for trace in run.traces] == [level.grid.nx for level in run.levels]
+    assert [trace.diverged for trace in run.traces] == [
+        False,
+        True,
+        *[False] * (len(run.levels) - 2),
+    ]
+    assert found.status.converged
 
 
 def test_scarce_oil_is_tried_undamped_unless_heavily_loaded_and_is_damped_more(

@@ -96,6 +96,7 @@ class GridIteration:
         fine, finest = levels[-1], len(levels) == len(self.levels)
         pose_problem(fine)
         fine.update()
+        self.traces.append(GridTrace(columns=fine.grid.nx))  # also if it diverges before the heat
         done = self._start_heat(levels)
         method = method_of(self._visit(levels))
         is_slow = self.coupling.state is not None or self.hierarchy.scaled.groups.M > SECOND_LOAD
@@ -109,7 +110,7 @@ class GridIteration:
             part=EXTRAPOLATED_PART if self.options.extrapolate else 1.0,
         )
         trace = GridTrace(criteria, coupled=self.coupling.state is not None, columns=fine.grid.nx)
-        self.traces.append(trace)
+        self.traces[-1] = trace
         begins = len(levels) - 1 == self.roughness.first  # the first level with the heights
         done += self._raise_heights(levels, method) if begins else 0
         trace.note(*nodal_film(fine))

@@ -5,9 +5,9 @@ from dataclasses import replace
 
 from tehl.estimate.domain import far_field_error
 from tehl.estimate.entering import entry_error
-from tehl.estimate.nodes import LIMITED_RATIO, side_bar
+from tehl.estimate.nodes import LIMITED_RATIO, SCARCE, side_bar
 from tehl.estimate.spin import spin_error
-from tehl.estimate.starvation import supply_error
+from tehl.estimate.starvation import supply_error, supply_ratio
 from tehl.estimate.third_order import LEAST_SLENDER, third_order_bar
 from tehl.result.bars import ErrorEstimate
 from tehl.solver.cycle.continuation import Roughness
@@ -40,7 +40,8 @@ and its least bar over that of one that is not: of 14 rigs (M = 1,700 to 14,000)
 as much."""
 MISSED_LOBE = 1.9
 """Factor on the least bar of a minimum at the sides where oil is scarce and none was found: lines
-may miss it. That of an outer ring (M = 4,850) is 1.6 % thinner than at the exit."""
+may miss it. That of an outer ring (M = 4,850) is 1.6 % thinner than at the exit. With less oil than
+`SCARCE` films are even."""
 
 
 def estimated_errors(
@@ -70,9 +71,8 @@ def estimated_errors(
     least, expected = 0.0, 0.0 if roughness.is_rough else _expected_bar(hierarchy, level)
     at_side, scaled = is_thinnest_at_side(level), hierarchy.scaled
     if expected and (at_side or scaled.problem.supply is not None):
-        least = side_bar(scaled, level.grid.domain, level.grid.ny) * (
-            1.0 if at_side else MISSED_LOBE
-        )
+        missed = MISSED_LOBE if supply_ratio(scaled) >= SCARCE else 0.0
+        least = side_bar(scaled, level.grid.domain, level.grid.ny) * (1.0 if at_side else missed)
         least *= EXTRAPOLATED_AT_SIDE if found.extrapolated else 1.0
     elif level.grid.nx > FEW_LINES * level.grid.ny and scaled.groups.M > LOAD_AT_EXIT:
         least = PART_AT_EXIT * expected
