@@ -131,6 +131,19 @@ def test_a_row_that_states_another_key_removes_that_of_the_template(template):
     assert tables["surface_1"] == {"material": "steel", "radius": "4 mm"}
 
 
+def test_the_viscosities_of_a_data_sheet_replace_the_law_of_the_template(tmp_path):
+    path = tmp_path / "list.csv"
+    path.write_text(
+        "nu_40 [cSt],nu_100 [cSt],alpha [1/GPa],temperature [°C]\n"
+        "68,8.7,20,60\n,,,40\n68,,20,60\n68,8.7,,60\n"
+    )
+    stated, template, half, without = read_contacts(path).rows
+    assert stated.case.problem.lubricant.viscosity.law == "walther"
+    assert template.case.problem.lubricant.viscosity.law == "roelands"
+    assert "lubricant.viscosity.nu_100 is missing" in half.message
+    assert "alpha" in without.message
+
+
 def read_case_tables(path):
     """Return the tables of a case file."""
     return tehl.io.case.toml_tables(path)
@@ -142,7 +155,14 @@ def test_wrong_headings_are_one_sentence(tmp_path, template):
         ("lod [N],speed\n1,2\n", 'the column "lod [N]" is not known; did you mean load'),
         ("load [N],n [1/min]\n1,2\n", 'values such as "500 rpm at 40 mm" below u_m'),
         ("load [N],force [N]\n1,2\n", "two columns state contact.load"),
-        ("load [furlong]\n1\n", 'the unit of the column "load [furlong]" is not known'),
+        (
+            "load [furlong]\n1\n",
+            'the unit of the column "load [furlong]" is not known: furlong; expected a force such '
+            'as "80 N"',
+        ),
+        ("nu_40 [SUS]\n1\n", "is not known: SUS; expected a kinematic viscosity such as"),
+        ("max_time [fortnight]\n1\n", 'is not known: fortnight; expected a time such as "10 min"'),
+        ("radius_1 [foot]\n1\n", 'is not known: foot; expected a radius such as "20 mm"'),
         ("load [N]\n", "has no contacts"),
         ("remark\nnew\n", "has no column that a case file knows"),
         ("strange\n5\n", "has no column that a case file knows"),

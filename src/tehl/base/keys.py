@@ -71,11 +71,16 @@ def example(field: FieldInfo) -> str | None:
     """Return a good value of a field, as a case file shows it; None if it has none."""
     if field.examples:
         return json.dumps(field.examples[0])
+    found = quantity_of(field)
+    return None if found is None else found.example
+
+
+def quantity_of(field: FieldInfo) -> Quantity | None:
+    """Return the kind of number that a field holds, None if it holds none with a unit."""
     inside = (
         note for one in get_args(field.annotation) for note in getattr(one, "__metadata__", ())
     )
-    notes = (*field.metadata, *inside)
-    return next((note.example for note in notes if isinstance(note, Quantity)), None)
+    return next((note for note in (*field.metadata, *inside) if isinstance(note, Quantity)), None)
 
 
 # ---- words

@@ -171,11 +171,11 @@ class Quantity:
         if isinstance(value, str):
             return self._check(self._read(value.strip()))
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise ValueError(f"is not a number; {self._expected}")
+            raise ValueError(f"is not a number; {self.expected}")
         if abs(value) > 1e300:  # so that huge integers of a case file do not overflow
             return self._check(math.inf if value > 0 else -math.inf)
         if abs(value) > self.most:
-            raise ValueError(f"is in {self.unit} as a bare number; {self._expected}")
+            raise ValueError(f"is in {self.unit} as a bare number; {self.expected}")
         return self._check(float(value))
 
     def has_unit(self, text: str) -> bool:
@@ -192,7 +192,8 @@ class Quantity:
         return "%" in self.example
 
     @property
-    def _expected(self) -> str:
+    def expected(self) -> str:
+        """How messages say what would be right: ``expected a force such as "80 N"``."""
         return f"expected {self.name} such as {self.example}"
 
     def _read(self, text: str) -> float:
@@ -200,10 +201,10 @@ class Quantity:
             return float(text)
         match = _NUMBER.match(text)
         if match is None:
-            raise ValueError(f"does not begin with a number; {self._expected}")
+            raise ValueError(f"does not begin with a number; {self.expected}")
         number, unit = float(match.group()), text[match.end() :].strip()
         if not unit and self.unit != "-":
-            raise ValueError(f"lacks a unit; {self._expected}, or a number in SI without quotes")
+            raise ValueError(f"lacks a unit; {self.expected}, or a number in SI without quotes")
         if not unit:
             return number
         if self.unit == "K" and unit in _CELSIUS:
@@ -218,7 +219,7 @@ class Quantity:
         if self.unit == "rad/s" and not radius:
             return 2.0 * math.pi / 60.0
         if self.unit != "m/s":
-            raise ValueError(f"has the unit of a rotational speed ({unit[:20]}); {self._expected}")
+            raise ValueError(f"has the unit of a rotational speed ({unit[:20]}); {self.expected}")
         at, _, length = radius.partition(" ")
         if at != "at":
             raise ValueError(
@@ -230,37 +231,37 @@ class Quantity:
     def _factor(self, unit: str) -> float:
         """Return the factor from ``unit`` to SI."""
         if len(unit) > 40:  # characters of a unit
-            raise ValueError(f"has an unreadable unit; {self._expected}")
+            raise ValueError(f"has an unreadable unit; {self.expected}")
         if re.match(r",\d", unit):
-            raise ValueError(f"has a comma in its number, write a point; {self._expected}")
+            raise ValueError(f"has a comma in its number, write a point; {self.expected}")
         try:
             factor, dimension = _read_unit(unit)
         except ValueError as error:
-            raise ValueError(f"{error}; {self._expected}") from None
+            raise ValueError(f"{error}; {self.expected}") from None
         if self.unit == "-" and unit in _ANGLE_UNITS:
-            raise ValueError(f"has the unit of an angle ({unit}); {self._expected}")
+            raise ValueError(f"has the unit of an angle ({unit}); {self.expected}")
         turns = any(one in unit for one in _ANGLE_UNITS)
         if self.unit == "rad/s" and not turns:
-            raise ValueError(f"has the unit of a frequency ({unit}); {self._expected}")
+            raise ValueError(f"has the unit of a frequency ({unit}); {self.expected}")
         if self.unit == "Hz" and turns:
-            raise ValueError(f"has the unit of an angular velocity ({unit}); {self._expected}")
+            raise ValueError(f"has the unit of an angular velocity ({unit}); {self.expected}")
         if dimension != self.dimension:
             way = _CONVERSIONS.get((dimension, self.dimension))
             hint = "" if way is None else f" ({way})"
-            raise ValueError(f"has the unit of {_kind(dimension, unit)}; {self._expected}{hint}")
+            raise ValueError(f"has the unit of {_kind(dimension, unit)}; {self.expected}{hint}")
         return factor
 
     def _check(self, number: float) -> float:
         if math.isnan(number):
-            raise ValueError(f"is not a number; {self._expected}")
+            raise ValueError(f"is not a number; {self.expected}")
         if math.isinf(number) and not (self.flat and number > 0):
-            raise ValueError(f"is not finite; {self._expected}")
+            raise ValueError(f"is not finite; {self.expected}")
         if self.unit == "K" and not number > 0:
-            raise ValueError(f"is not above absolute zero; {self._expected}")
+            raise ValueError(f"is not above absolute zero; {self.expected}")
         if self.sign == "positive" and not number > 0:
-            raise ValueError(f"must be positive; {self._expected}")
+            raise ValueError(f"must be positive; {self.expected}")
         if self.sign == "non-negative" and not number >= 0:
-            raise ValueError(f"must not be negative; {self._expected}")
+            raise ValueError(f"must not be negative; {self.expected}")
         if self.flat and number == 0:
             raise ValueError('must not be zero: a flat surface has the radius "inf"')
         return number

@@ -57,6 +57,12 @@ _ALTERNATIVES = (
 """Keys of which a case states one: a row that states another removes that of the template."""
 
 
+WALTHER = "walther"
+"""The law of the viscosities of a data sheet."""
+_DATA_SHEET = ("lubricant.viscosity.nu_40", "lubricant.viscosity.nu_100")
+"""Keys of Walther's law alone: a row that states them replaces another law of the template."""
+
+
 @dataclass(frozen=True, slots=True)
 class Listed:
     """A row of a list: where it stands, its cells, and its case or what is wrong with it."""
@@ -245,9 +251,18 @@ def tables_of(base: dict[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]
         before = tables.get("lubricant")
         kept = before.items() if isinstance(before, dict) else ()
         tables = tables | {"lubricant": {k: v for k, v in kept if k == "temperature"}}
+    elif any(key in stated for key in _DATA_SHEET) and _law_of(tables) != WALTHER:
+        tables = changed(tables, "lubricant.viscosity", {"law": WALTHER})
     for key, value in stated.items():
         tables = changed(tables, key, value)
     return tables
+
+
+def _law_of(tables: Mapping[str, Any]) -> str:
+    """Return the law of viscosity that tables state; Walther's where they leave it to an oil."""
+    lubricant = tables.get("lubricant")
+    viscosity = lubricant.get("viscosity") if isinstance(lubricant, dict) else None
+    return str(viscosity.get("law", WALTHER)) if isinstance(viscosity, dict) else WALTHER
 
 
 def _replaced(stated: Mapping[str, Any]) -> Iterator[str]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from tehl.api.problem import ContactProblem
 from tehl.base.errors import InputError
-from tehl.base.keys import key_paths
+from tehl.base.keys import field_at, key_paths, models_at, quantity_of
 from tehl.base.units import ForcePerLength, is_per_turn, is_unit, quantity
 from tehl.contact.options import Options
 from tehl.io.case import plain_value
@@ -94,9 +94,20 @@ def column_of(text: str, others: Mapping[str, str] = NO_WORDS) -> Column:
             key, word = known, unit_of(last)
     if unit and not is_unit(word):
         if key is not None and word not in ("-", "1", ""):
-            raise InputError(f'the unit of the column "{text}" is not known: {unit}')
+            raise InputError(
+                f'the unit of the column "{text}" is not known: {unit}{_expected(key)}'
+            )
         word = ""
     return Column(text, key, "" if word in ("-", "1") else word)
+
+
+def _expected(key: str) -> str:
+    """Return what a key expects, as the end of a sentence; empty for a text."""
+    table, *path = key.split(".")
+    root, inside = (Options, path) if table == "numerics" else (ContactProblem, [table, *path])
+    field = field_at(models_at(root, tuple(inside[:-1]))[-1], inside[-1])
+    found = None if field is None else quantity_of(field)
+    return "" if found is None else f"; {found.expected}"
 
 
 def by_unit(column: Column) -> Column:
