@@ -77,6 +77,7 @@ def test_a_film_without_error_bars_says_that_the_time_is_over(cut):
     assert len(reports) == 3
     assert result.status.cause == "time_over"
     assert "numerics.max_time = 3600 s is over on " in result.status.message
+    assert "or a larger numerics.error" in str(result.status.hint)
 
 
 def test_the_film_before_cycles_that_lead_away_is_the_result_where_the_time_ends(monkeypatch):

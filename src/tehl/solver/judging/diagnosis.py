@@ -104,7 +104,8 @@ def time_over(run: FilmSolver) -> Status:
         f"numerics.max_time = {run.options.max_time:g} s is over on {grid_size(points)}, and no "
         "coarser grid converged to a film with error bars."
     )
-    hint = Hint("Take a longer numerics.max_time, or fewer nodes (numerics.points).")
+    less = "a larger numerics.error" if run.goal.is_open else "fewer nodes (numerics.points)"
+    hint = Hint(f"Take a longer numerics.max_time, or {less}.")
     cause = _likely_cause(run)
     if cause is not None:
         message, hint = f"{message} Likely cause: {cause.message}", cause.hint
