@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
+from unittest.mock import Mock
 
 import pytest
 
@@ -157,6 +158,20 @@ def test_a_strategy_goes_on_from_the_grids_that_another_one_solved(
     assert found.film_scaled.central == pytest.approx(usual.film_scaled.central, rel=2e-3)
     assert found.film_scaled.minimum == pytest.approx(usual.film_scaled.minimum, rel=2e-3)
     assert found.errors.central == pytest.approx(usual.errors.central, rel=0.2)
+
+
+@pytest.mark.parametrize(
+    ("residuals", "reached", "leads"),
+    [((2e-3, 9e-5), None, False), ((2e-4, 5e-4), None, True), ((2e-3, 9e-5), 0.09, True)],
+)
+def test_a_grid_is_not_too_coarse_where_cycles_lead_away_or_a_coarser_one_has_a_film(
+    residuals: tuple[float, ...], reached: float | None, leads: bool
+) -> None:
+    """A tooth (M = 6,534): bars of 9 % on 257 nodes, and of 480 % after 7 cycles on 513."""
+    reports = [Mock(residual=one) for one in residuals]
+    before = None if reached is None else ((257, 65), reached)
+    run = Mock(traces=[Mock(reports=reports)], reached_before=Mock(return_value=before))
+    assert FilmSolver.leads_away(run) is leads
 
 
 def test_a_grid_that_diverges_before_it_is_heated_has_a_trace_of_its_own(

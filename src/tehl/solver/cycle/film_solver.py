@@ -248,11 +248,18 @@ class FilmSolver(GridIteration):
         resolved = is_resolved(self.finest)
         if not self._has_converged():
             resolved = resolved and self.goal.is_met(errors, part, TOO_COARSE)
-            return (force or not resolved) and self.goal.may_try(self.finest)
+            is_explained = not (resolved or self.leads_away())
+            return (force or is_explained) and self.goal.may_try(self.finest)
         if resolved and self.goal.is_met(errors, part):
             return False
         self.wanted = self.goal.other_nodes(self.finest, errors) if resolved else None
         return self.wanted is None and self.goal.may_refine(self.finest, errors)
+
+    def leads_away(self) -> bool:
+        """Return whether cycles lead away from the film, or a coarser grid resolves it."""
+        reports = self.traces[-1].reports
+        grows = bool(reports) and reports[-1].residual > reports[0].residual
+        return grows or self.reached_before() is not None
 
     def _is_last(self, levels: Sequence[Level]) -> bool:
         """Return whether a grid is accurate enough, or no finer one may follow."""

@@ -78,9 +78,7 @@ def verdict(run: FilmSolver, *, reached: bool) -> Status:
     finite = np.isfinite(film.p).all() and np.isfinite(film.h).all()
     if not (finite and film.p.min() >= -NEGATIVE):
         return diverged(run)
-    another = run.roughness.is_rough or is_starved(run.hierarchy.scaled)
-    reports = run.traces[-1].reports
-    another |= bool(reports) and reports[-1].residual > reports[0].residual
+    another = run.roughness.is_rough or is_starved(run.hierarchy.scaled) or run.leads_away()
     if not reached and another:  # another strategy may converge on this grid
         return not_reached(run)
     found = _rough_status(run, errors) if run.roughness.is_rough else _smooth_status(run, errors)
