@@ -1,9 +1,12 @@
 """Load of a pressure field."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from tehl.operators.dry import dry_pressure
+from tehl.contact.options import Domain
+from tehl.operators.dry import dry_pressure, start_pressure
 from tehl.operators.load import Load
 from tests.operators.contacts import contact_groups, grid_of
 
@@ -22,3 +25,15 @@ def test_half_a_domain_carries_the_load_of_the_full_one():
     assert Load(half).integral(pressure) == pytest.approx(
         Load(full).integral(half.unfold(pressure)), rel=1e-13
     )
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+def test_a_start_on_cells_larger_than_the_contact_carries_its_load(mirror):
+    groups, fine = contact_groups(), grid_of(65, 65, mirror=mirror)
+    assert np.array_equal(start_pressure(fine, groups), dry_pressure(fine, groups))
+    wide = Domain(x=(-704.8, 320.4), y=(-633.0, 633.0))
+    grid = replace(fine, nx=21, ny=21, domain=wide)
+    assert not dry_pressure(grid, groups).any()
+    pressure = start_pressure(grid, groups)
+    assert np.count_nonzero(pressure) > 4
+    assert Load(grid).integral(pressure) == pytest.approx(groups.shape.load, rel=1e-12)

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from tehl.api.problem import case_from_tables
+from tehl.api.solvers import solve
 from tehl.contact.options import Options
 from tehl.solver.cycle import film_solver
 from tehl.solver.cycle.coarsest import CoarsestSolver
@@ -71,3 +73,21 @@ def test_a_coarsest_state_that_has_not_converged_is_no_start(points, monkeypatch
     monkeypatch.setattr(film_solver, "solve_coarsest", fails)
     assert found.solve(force=False)
     assert nodal_film(found.finest) == pytest.approx(nodal_film(usual.finest), rel=2e-3)
+
+
+def test_rigid_contacts_with_scarce_oil_are_similar_whatever_their_load():
+    """Without deflection and pressure in the oil the load scales all films alike.
+
+    Of the start no node carried a load, which left Newton's method without unknowns.
+    """
+    parts, errors = [], []
+    for load in (0.05, 0.15):
+        tables = moes_contact(load, 10.0).model_dump(exclude_none=True)
+        contact = case_from_tables(tables | {"supply": {"ratio": 0.72}})[0]
+        film = solve(contact, Options(error=0.02))
+        flooded = solve(moes_contact(load, 10.0), Options(error=0.02))
+        parts.append(film.film.central / flooded.film.central)
+        errors.append(film.errors.central)
+        assert 0.0 < errors[-1] < 0.02
+    assert parts[0] == pytest.approx(parts[1], rel=max(errors))
+    assert parts[0] < 0.72

@@ -26,6 +26,8 @@ SEARCHED, AT_END = (65, 129), 0.2
 half-widths, below which it reaches it: lundberg profiles have 0.1 to 0.17, and lines that crowd at
 the end resolve it as well. With other lines one (M = 75) leaves 0.58 of the residual per cycle,
 else less than 0.5. Those of ISO 16281 have 0.28 and more."""
+START_CELLS = 2.0
+"""Half-width of the contact to start from, in cells at the least."""
 STEEP_LINES = 65
 """Lines up to which the pressure is steep from line to line where these crowd at the ends. On more
 it starts from that of half as many."""
@@ -126,6 +128,32 @@ def dry_pressure(grid: Grid, groups: Groups) -> Array:
     if groups.roller is not None:
         return dry_roller(grid, groups)[0].copy()
     return groups.shape.dry_pressure(grid.x[None, :], grid.y[:, None])
+
+
+def start_pressure(grid: Grid, groups: Groups) -> Array:
+    """Return the dry pressure to start from: that of a wider contact if no node would carry it.
+
+    The domain of a rigid contact (M < 1) is hundreds of half-widths long. Without any pressure a
+    film that scarce oil leaves partly filled has no unknowns, and Newton's method no step.
+
+    Parameters
+    ----------
+    grid : Grid
+        Nodes X, Y in Hertz half-widths.
+    groups : Groups
+        Shape of the contact.
+
+    Returns
+    -------
+    array of ``grid.shape``
+        Carries the load, if it is wider, on half-widths of `START_CELLS` cells [-].
+    """
+    cell = max(grid.dx, grid.dy if grid.ny > 1 else 0.0)
+    if groups.roller is not None or not START_CELLS * cell > 1.0:
+        return dry_pressure(grid, groups)
+    wide = 1.0 / (START_CELLS * cell)
+    found = groups.shape.dry_pressure(wide * grid.x[None, :], wide * grid.y[:, None])
+    return found * (groups.shape.load / Load(grid).integral(found))
 
 
 def at_loaded_ends(grid: Grid, groups: Groups) -> Grid:
