@@ -80,6 +80,7 @@ def test_a_string_with_a_unit_becomes_si(kind: object, text: object, value: floa
         ("80 N)", "unreadable unit"),
         ("80 N ^", "exponent"),
         ("80 N $", "unreadable unit"),
+        ("1 200 N", "has a space in its number, leave it out"),
         ("eighty N", "does not begin with a number"),
         ("", "does not begin with a number"),
         ("nan", "is not a number"),

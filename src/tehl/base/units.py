@@ -232,8 +232,10 @@ class Quantity:
         """Return the factor from ``unit`` to SI."""
         if len(unit) > 40:  # characters of a unit
             raise ValueError(f"has an unreadable unit; {self.expected}")
-        if re.match(r",\d", unit):
-            raise ValueError(f"has a comma in its number, write a point; {self.expected}")
+        if apart := re.match(r"(,)\d|\d{3}\b", unit):  # 80,5 N or 1 200 N
+            found = "a comma in its number, write a point"
+            found = found if apart[1] else "a space in its number, leave it out"
+            raise ValueError(f"has {found}; {self.expected}")
         try:
             factor, dimension = _read_unit(unit)
         except ValueError as error:
