@@ -410,6 +410,7 @@ def test_a_lobe_that_lines_miss_is_within_reach_of_the_film_that_was_found(place
         level = Mock(grid=grid, film=Mock(h=film))
         found, true = film_summary(grid, film).minimum, min(0.05 + 0.5 * 1e-5**0.5, elsewhere)
         assert (1.0 - side_reach(level) / SAMPLED) * found < true < 1.04 * found
+        assert side_reach(level, scarce=True) >= 2.0 * side_reach(level)
 
 
 def test_a_flooded_film_to_which_a_supply_is_stated_has_the_goal_of_its_centre() -> None:

@@ -78,7 +78,7 @@ def estimated_errors(
         least = PART_AT_EXIT * expected
     # after the last cycle; grids that show an order show it with what lines miss
     if traces[-1].measured and not (roughness.is_rough or found.extrapolated):
-        least = max(least, side_reach(level))
+        least = max(least, side_reach(level, scarce=scaled.problem.supply is not None))
     supply = max(1.0 - meets, 0.0) * supply_error(scaled)
     return replace(
         found,

@@ -188,9 +188,9 @@ class Goal:
     def _lines_decide(self, level: Level, errors: ErrorEstimate) -> bool:
         """Return whether the minimum film errs by the mesh along y alone."""
         bar, grid = errors.discretisation_minimum, level.grid
-        if side_reach(level) >= bar:
-            return True
         scarce = self.scaled.problem.supply is not None
+        if side_reach(level, scarce=scarce) >= bar:
+            return True
         at_side = scarce or is_thinnest_at_side(level)
         if not at_side or bar < LINES_PART * errors.discretisation_central:
             return False
