@@ -392,6 +392,15 @@ def test_the_minimum_at_the_exit_of_a_heavy_slender_contact_has_a_least_bar() ->
     assert change < found.errors.minimum
 
 
+def test_so_has_that_of_scarce_oil() -> None:
+    flooded = moes_contact(3451.0, 6.3, radius_ratio=45.0)
+    starved = flooded.model_copy(update={"supply": Supply(ratio=0.9)})
+    found = solve(starved, Options(extrapolate=True).on_points(257, 65))
+    edges = Domain(x=tuple(found.scaled.x[[0, -1]]), y=tuple(found.scaled.y[[0, -1]]))
+    expected = third_order_bar(ScaledProblem.of(starved), edges, 257, 65)
+    assert found.errors.discretisation_minimum >= 0.999 * PART_AT_EXIT * expected
+
+
 def with_minimum_at(y: float, grid: Grid) -> Mock:
     """Return a level whose film is thinnest at a distance from the centre line."""
     film = np.abs(grid.y - y)[:, None] + np.ones(grid.nx)

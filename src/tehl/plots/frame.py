@@ -229,7 +229,7 @@ def window(result: Solution) -> tuple[Span, Span]:
 
 
 def film_span(film: Array, central: float) -> tuple[float, float]:
-    """Return the least and the central film of a map, positive even where there is no film.
+    """Return the least and the central film of a map, both positive for its colours.
 
     Parameters
     ----------

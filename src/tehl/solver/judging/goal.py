@@ -35,7 +35,7 @@ LINES_PART = 2.0
 """Bar of the minimum film over that of the central one from which the mesh along y decides."""
 LEAST_LEFT = 0.4
 """Part of the error to reach that is left to the mesh along y, below which lines alone are too
-many: with 0.55 of it by the supply a ring (M = 34,300) needs 1.7 times as many."""
+many: with 0.55 of it by the supply a drive (M = 34,300) needs 1.7 times as many."""
 FLOODED_PART = 0.7
 """Error to reach of a flooded film to which ``supply.ratio`` is stated, over that of the starved
 one, which has it beside its own: with 0.5 an inner ring (M = 3,700) needs another grid, with 1 a

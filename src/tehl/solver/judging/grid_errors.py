@@ -47,7 +47,8 @@ bar, by a seventh; without them 4, by up to 13 bars."""
 AGREED, AGREED_ON_TWO, LEAST_OF_SCARCE = (0.15, 1.6), 3.0, 0.003
 """Parts of the last two changes, or of that of two grids, and least bar, beyond which a film of
 scarce oil needs no bar to expect: errors of second and of third order leave a third of them, and
-the oil that enters fixes most of the film. All of 20 contacts (M = 26 to 30,000) lie inside."""
+the oil that enters fixes most of the film. Of 106 such films of 53 contacts two lie outside, both
+with lobes between the lines, which have bars of their own."""
 SMOOTH_PART, WAVE_PART = 1.7, 20.0
 """Factors of the two terms of `single_grid_estimate`."""
 Thinnest = Literal["anywhere", "sides", "exit"]
