@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from tehl.cli.reference_runs import Comparisons
@@ -16,7 +17,9 @@ from tehl.report.page import report_text
 from tehl.report.readable import length
 from tehl.result.bars import Estimate
 from tehl.result.solution import Hint, Status
+from tests.fixtures_result import CASE
 from tests.fixtures_rough import make_rough
+from tests.fixtures_transient import passing
 
 
 def test_a_film_reads_in_the_unit_that_explain_takes(result):
@@ -155,3 +158,23 @@ def test_a_certified_run_reports_how_its_grids_ended(result):
     message = "Grids of the error bars: 65 x 65 too coarse for the film."
     assert message in as_text(replace(result, status=Status(kind="converged", message=message)))
     assert message in report_text(replace(result, status=Status(kind="converged", message=message)))
+
+
+def test_sliding_that_changes_has_a_row_of_its_own():
+    transient = {"duration": 1e-4, "sliding_speed": [[0.0, -1.0], [1e-4, 2.0]]}
+    run = passing(CASE | {"transient": transient})
+    sliding = np.linspace(-1.0, 2.0, run.history.time.size)
+    run = replace(run, history=replace(run.history, sliding=sliding))
+    assert "sliding          -1.5 to 3   (at the start -1.5) m/s" in as_text(run)
+    assert "SRR" not in as_text(run)
+    assert "SRR = 0.25" in as_text(passing(CASE | {"transient": {"duration": 1e-4}}))
+
+
+def test_friction_is_shown_where_only_the_course_slides():
+    contact = CASE["contact"] | {"slide_roll_ratio": 0.0}
+    transient = {"duration": 1e-4, "slide_roll_ratio": [[0.0, 0.0], [1e-4, 1.0]]}
+    summits = {"model": "greenwood-tripp", "summit_radius": "10 um", "rms": "0.2 um"}
+    summits |= {"summit_density": "2e10 1/m^2"}
+    run = passing(CASE | {"contact": contact, "transient": transient, "asperities": summits})
+    history = replace(run.history, sliding=np.linspace(0.0, 1.0, run.history.time.size))
+    assert "friction  " in as_text(replace(run, history=history))

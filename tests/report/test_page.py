@@ -345,3 +345,28 @@ def test_a_rough_film_has_a_section_with_its_waves_and_pictures(rough, smooth, m
     assert "Ripples of film and pressure." in words
     monkeypatch.setattr(module, "CAPTIONS", {})
     assert "Roughness" not in " ".join(Page(report_text(smooth)).words)
+
+
+@pytest.mark.usefixtures("no_pictures")
+def test_formulas_are_compared_only_with_a_film_of_the_stated_contact():
+    shown = {}
+    for first in (1.0, 0.5):
+        transient = {"duration": 1e-4, "load": [[0.0, first], [1e-4, 1.0]]}
+        page = Page(report_text(passing(CASE | {"transient": transient})))
+        shown[first] = " ".join(page.words)
+    assert "this solve, at the start" in shown[1.0]
+    assert "this solve" not in shown[0.5]
+    assert "radius of [contact]: the run begins with others" in shown[0.5]
+
+
+@pytest.mark.usefixtures("no_pictures")
+def test_the_load_of_a_line_is_that_of_a_length():
+    line = {"type": "line", "radius": "8 mm", "load_per_length": "300 N/mm"}
+    line |= {"entrainment_speed": "3 m/s"}
+    transient = {"duration": 1e-4, "load": [[0.0, 1.0], [1e-4, 0.5]]}
+    run = passing(CASE | {"contact": line, "transient": transient})
+    words = " ".join(Page(report_text(run)).words)
+    assert f" {1e-3 * run.start.scales.load:.4g} N/mm " in words
+    assert f" {run.start.scales.load:.4g} N " not in words
+    assert "w / (E' R_x) " in words
+    assert "w / (E' R_x²)" not in words

@@ -59,6 +59,11 @@ class Transient(Table):
     max_cycles: Annotated[int, Field(ge=1, le=1000)] = 20
     """Cycles per step before the next relaxation is tried."""
 
+    @property
+    def slides_in_time(self) -> bool:
+        """Whether the sliding has a course of its own."""
+        return bool(self.slide_roll_ratio or self.sliding_speed)
+
     @model_validator(mode="after")
     def _slides_once(self) -> Self:
         if self.slide_roll_ratio and self.sliding_speed:

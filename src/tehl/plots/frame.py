@@ -145,13 +145,16 @@ def _mark_failure(axes: Axes, result: Solution) -> None:
 
 
 def _subtitle(result: Solution | TransientSolution, start: Solution) -> str:
-    """Return groups, and the film of a steady result or the sliding of a transient one."""
+    """Return groups, and the film of a steady result or the constant sliding of a transient one."""
     groups, film, scaled = start.groups, start.film, start.film_scaled
     about = (
         f"M = {groups.M:.4g}, L = {groups.L:.4g}, "
         f"$p_h$ = {start.scales.hertz_pressure * GIGA:.3g} GPa"
     )
     if start is not result:
+        transient = start.problem.transient
+        if transient is not None and transient.slides_in_time:
+            return about
         return f"{about}, SRR = {start.problem.slide_roll_ratio:g}"
     if why := no_film(start):
         return f"{about}\nno film: {why}"

@@ -1,9 +1,11 @@
 """A result, steady or transient, as one self-contained HTML page with its pictures inside."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 from tehl.base.errors import InputError
+from tehl.contact.moment import Moment, moment_at
 from tehl.estimate.film_formulas import film_estimates
 from tehl.estimate.wave_theory import waves_of
 from tehl.io.tables import DEFINITIONS
@@ -104,6 +106,7 @@ def _shared(result: Solution | TransientSolution, pictures: Pictures, dpi: int) 
         "bars": bars,
         "certified": list(_certified(bars)),
         "conventions": DEFINITIONS,
+        "as_stated": replace(moment_at(start.problem, 0.0), sliding=0.0) == Moment(),
         "formulas": film_estimates(start.groups, start.scales),
         "inputs": _inputs(start),
         "no_film": no_film(start),

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 FILTERS = {
     **{"": "plain", "nm": "nm", "um": "um", "MPa": "mpa", "GPa": "gpa", "K": "kelvin"},
     **{"°C": "celsius", "N": "newton", "W": "watt", "N/um": "newton_per_um"},
+    "N/mm": "newton_per_mm",
     **{"N s/m": "newton_second_per_m", "N mm": "newton_mm", "mrad": "mrad", "%": "share"},
 }
 """Names of the filters by the units of `tehl.result.quantity`."""
