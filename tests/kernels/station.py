@@ -13,7 +13,7 @@ import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
 from tehl.base.typing import Array
-from tehl.kernels.energy.column import CONDUCTION, TO_WALLS
+from tehl.kernels.energy.column import CONDUCTION
 from tehl.kernels.energy.march import LARGEST_FALL, LARGEST_FLUIDITY_GROWTH, LARGEST_KELVIN_STEP
 from tehl.kernels.energy.records import ETA_TERMS, GHOSTS, Across, Fields, Laws, Model, Surfaces
 
@@ -263,8 +263,7 @@ def energy_matrix(
     rest = rest + shear + compression + part * gain * at.t + shared * np.sum(share * at.t, axis=0)
     gap = np.ones(n)
     gap[1:-1] = zeta[2:] - zeta[:-2]
-    with np.errstate(divide="ignore"):
-        out = diagonal + (2.0 * np.abs(through).T / gap + TO_WALLS / (zeta * (1.0 - zeta)) ** 2).T
+    out = diagonal + (2.0 * np.abs(through).T / gap - np.diag(across.d2)).T
     return matrix, rest.T, sideways / out
 
 

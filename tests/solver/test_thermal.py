@@ -14,6 +14,8 @@ from tehl.contact.options import Options
 from tehl.estimate.inlet_heating import inlet_factors
 from tehl.io.templates import template_text
 from tehl.result.fields import FilmHeat
+from tehl.solver.monitor import SILENT
+from tehl.solver.steady import try_strategies
 from tests.reference import heated_contact
 from tests.solver.runs import tight
 
@@ -230,3 +232,31 @@ def test_the_grid_before_the_finest_is_heated_with_half_as_many_lines():
     rises = {one.points: one.temperature_rise for one in run.history}
     assert rises[65, 33] == pytest.approx(rises[129, 65], rel=0.1)
     assert list(rises.values()).count(0.0) == len(rises) - 2
+
+
+def test_sweeps_keep_the_temperature_of_oil_that_flows_back_and_sideways():
+    # hot thin oil between large radii: a change that alternates across the thick inlet was carried
+    # too far along y, and grew to 8 K
+    tables = tomllib.loads(template_text("thermal"))
+    tables["contact"] = {
+        "radius_x": 0.05,
+        "radius_y": 0.036,
+        "hertz_pressure": 1.6e9,
+        "entrainment_speed": 3.8,
+        "slide_roll_ratio": 0.003,
+    }
+    tables["surface_1"] = tables["surface_2"] = {"material": "steel"}
+    tables["thermal"]["temperature"] = 383.0
+    tables["lubricant"] |= {
+        "viscosity": {"law": "walther", "nu_40": 68e-6, "nu_100": 8.7e-6, "alpha": 1.9e-8},
+    }
+    tables["numerics"] = {"points": [129, 257]}
+    problem, options = case_from_tables(tables)
+    attempt, _ = try_strategies(problem, options, monitor=SILENT, rough=False)
+    state = attempt.run.coupling.state
+    assert state is not None
+    before = state.temperature.copy()
+    for _ in range(10):
+        state.sweep(3)
+    assert before.max() - 383.0 > 0.4
+    assert np.abs(state.temperature - before).max() < 0.1

@@ -28,7 +28,6 @@ from tehl.kernels.lanes import LANES, Lanes, greater, lesser, where
 from tehl.kernels.raw import lanes
 
 CONDUCTION = 8.0  # a little less than pi^2, the slowest decay across the film
-TO_WALLS = 1.0  # over the squared distance to both walls: a little more than conduction
 
 
 @helper
@@ -145,8 +144,9 @@ def _inner_row(model: Model, fields: Fields, work: Work, place: Place, k: int) -
         flow_and_heat = through * across.d1[k, m] - across.d2[k, m]
         matrix[k, m, rows] = flow_and_heat + shared * layers[m].share
     matrix[k, k, rows] = matrix[k, k, rows] + diagonal + part * gain
-    to_walls = TO_WALLS / (zeta[k] * (1.0 - zeta[k])) ** 2
-    out = diagonal + abs(through) * (2.0 / (zeta[k + 1] - zeta[k - 1])) + to_walls
+    # all conduction, not only that to the walls: a change that alternates across a thick film that
+    # flows back would be carried too far, and grow from sweep to sweep
+    out = diagonal + abs(through) * (2.0 / (zeta[k + 1] - zeta[k - 1])) - across.d2[k, k]
     here.sideways = here.sideways / out
 
 
