@@ -191,6 +191,17 @@ def test_a_film_thicker_than_the_bodies_is_reported_and_not_solved():
         solve(problem, options)
 
 
+def test_oil_that_is_too_cold_is_named_with_its_temperature_and_viscosity():
+    tables = copy.deepcopy(ball_tables())
+    tables["lubricant"] |= {"name": "mineral-oil", "temperature": "-60 degC"}
+    del tables["lubricant"]["viscosity"], tables["lubricant"]["density"]
+    problem, options = case_from_tables(tables)
+    words = f"oil at the inlet, -60 degC, its viscosity there, {problem.ambient_viscosity:.4g} Pa s"
+    assert any(words in text for text in explain(problem, options).questions)
+    with pytest.raises(InputError, match=words):
+        solve(problem, options)
+
+
 @pytest.mark.parametrize(("load", "speed"), [(2000, 20), (20000, 10)])
 def test_an_extreme_pressure_is_reported(load: float, speed: float):
     contact = {"radius": "20 mm", "moes_load": load, "moes_speed": speed}

@@ -108,6 +108,13 @@ def test_a_film_that_lacks_time_names_what_may_keep_it_from_converging(cut):
     assert "lubricant.shear" in result.status.hint.settings
 
 
+def test_a_grid_that_was_not_reached_is_not_the_cause(cut):
+    result, _ = cut(moes_contact(5000.0, 8.0), Options(points=129, max_time=3600.0), 3)
+    assert result.status.cause == "time_over"
+    assert "Likely cause" not in result.status.message
+    assert "Take a longer numerics.max_time, or fewer nodes" in str(result.status.hint)
+
+
 def test_heights_are_not_raised_after_the_time(cut):
     contact = wavy((57.21, 10.52), (0.4, 0.25, 0.0))
     for cycles in range(20, 60, 8):

@@ -20,6 +20,7 @@ from functools import lru_cache
 from typing import Literal, get_args
 
 from tehl.base.errors import InputError
+from tehl.contact.problem import ContactProblem
 from tehl.estimate.formula import Asymptotes, FilmRatio, Formula, Regime
 from tehl.estimate.line_formulas import LINE_FORMULAS, line_asymptotes, moes_line
 from tehl.estimate.scaling import Groups, ScaledProblem, Scales
@@ -200,8 +201,23 @@ def check_film(scaled: ScaledProblem) -> None:
         raise InputError(
             f"contact: the film to expect, {1e3 * likely_film(scaled).central_m:.4g} mm, is "
             f"{part:.4g} times the smaller reduced radius, and lubrication theory needs less than "
-            f"{LARGEST_FILM_PART:g}: check the units of viscosity, speed, load and radius"
+            f"{LARGEST_FILM_PART:g}: {thick_film_advice(scaled.problem)}"
         )
+
+
+def thick_film_advice(problem: ContactProblem) -> str:
+    """Return what to check where the film to expect is too thick, in words.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Cold oil may be far more viscous than its data at the reference temperature suggest.
+    """
+    return (
+        f"check the temperature of the oil at the inlet, {problem.inlet_temperature - 273.15:.4g} "
+        f"degC, its viscosity there, {problem.ambient_viscosity:.4g} Pa s, and the units of speed, "
+        "load and radius"
+    )
 
 
 def regime(groups: Groups) -> Regime:

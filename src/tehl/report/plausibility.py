@@ -18,6 +18,7 @@ from tehl.estimate.film_formulas import (
     film_over_radius,
     inlet_stress,
     likely_film,
+    thick_film_advice,
 )
 from tehl.estimate.nodes import expected_bar, planned
 from tehl.estimate.scaling import ScaledProblem
@@ -265,7 +266,7 @@ def _about_film(scaled: ScaledProblem) -> Iterator[str]:
         yield (
             f"the expected film of {1e3 * film:.4g} mm is {thick:.3g} times the smaller reduced "
             "radius: Reynolds' equation needs a thin one, and a run accepts "
-            f"{LARGEST_FILM_PART:g} at most; check the units of viscosity, speed, load and radius"
+            f"{LARGEST_FILM_PART:g} at most; {thick_film_advice(scaled.problem)}"
         )
     if film < MOLECULAR:
         yield (

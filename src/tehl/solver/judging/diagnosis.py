@@ -107,7 +107,9 @@ def time_over(run: FilmSolver) -> Status:
     less = "a larger numerics.error" if run.goal.is_open else "fewer nodes (numerics.points)"
     hint = Hint(f"Take a longer numerics.max_time, or {less}.")
     cause = _likely_cause(run)
-    if cause is not None:
+    # a mesh on which no cycle was done says nothing of those before it
+    unused = points != run.finest.grid.points
+    if cause is not None and not (unused and cause.cause == "film_below_grid"):
         message, hint = f"{message} Likely cause: {cause.message}", cause.hint
     return Status(kind="not_converged", cause=TIME_OVER, message=message, hint=hint)
 
