@@ -221,6 +221,14 @@ def test_tampered_attributes_are_named(result, tmp_path, attrs, reason):
         load(tmp_path / "out.nc")
 
 
+def test_a_key_of_another_version_is_named_with_that_version(result, tmp_path):
+    save(result, tmp_path / "out.nc")
+    tables = result.problem.model_dump(mode="json", exclude_none=True) | {"novelty": {"part": 1}}
+    change(tmp_path / "out.nc", problem=json.dumps(tables), source="tehl 99.1")
+    with pytest.raises(FileFormatError, match=r"novelty: .* \(written by tehl 99\.1, this is tehl"):
+        load(tmp_path / "out.nc")
+
+
 def test_a_missing_file_is_an_input_error(tmp_path):
     with pytest.raises(InputError, match=r"none\.nc does not exist"):
         load(tmp_path / "none.nc")

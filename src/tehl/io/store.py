@@ -10,6 +10,7 @@ import numpy as np
 
 from tehl.base.atomic import replacing, shortened
 from tehl.base.errors import FileFormatError, InputError
+from tehl.base.version import __version__
 from tehl.io.content import (
     FORMAT_VERSION,
     KINDS,
@@ -136,10 +137,12 @@ def load(path: str | Path) -> Solution | TransientSolution:
         return rebuild(arrays, attrs)
     except KeyError as error:
         raise FileFormatError(
-            f"{source} is an incomplete tehl result: {error} is missing"
+            f"{source} is an incomplete tehl result: {error} is missing{_writer(attrs)}"
         ) from None
     except ValueError as error:
-        raise FileFormatError(f"{source} is not a valid tehl result: {_reason(error)}") from None
+        raise FileFormatError(
+            f"{source} is not a valid tehl result: {_reason(error)}{_writer(attrs)}"
+        ) from None
     except (TypeError, AttributeError, IndexError, RecursionError) as error:
         raise _damaged(source, error) from None
 
@@ -225,6 +228,12 @@ def _plain(value: Any) -> Any:
 
 def _damaged(source: Path, error: Exception) -> FileFormatError:
     return FileFormatError(f"{source} is truncated or damaged: {_first_line(error)}")
+
+
+def _writer(attrs: Attributes) -> str:
+    """Return the version that wrote a file in words, if it is another one than this."""
+    own, writer = f"tehl {__version__}", attrs.get("source", "")
+    return "" if writer == own else f" (written by {writer}, this is {own})"
 
 
 def _reason(error: ValueError) -> str:
