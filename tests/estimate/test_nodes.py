@@ -3,6 +3,7 @@
 import pytest
 
 from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
 from tehl.contact.supply import Supply
 from tehl.estimate.domain import domain_of, far_field_error
 from tehl.estimate.nodes import (
@@ -11,6 +12,7 @@ from tehl.estimate.nodes import (
     FEWEST_LINES,
     LIMITED_RATIO,
     LONGEST_CELL,
+    WAVE_NODES,
     is_thinnest_at_exit,
     planned,
 )
@@ -96,3 +98,32 @@ def test_asperities_lower_the_bar_by_their_load_to_a_quarter_at_least(
     bars = [third_order_bar(one, domain, 129) for one in (scaled, smooth)]
     assert bars[0] / bars[1] == pytest.approx(max(1.0 - shared_load(scaled).share, LEAST_SHARED))
     assert (shared_load(scaled).share > 1.0 - LEAST_SHARED) is (ratio * dense == 0.05)
+
+
+@pytest.mark.parametrize(
+    ("radius_ratio", "part", "boundary"),
+    [(1.0, 1, True), (8.0, 2, True), (30.0, 4, True), (30.0, 4, False)],
+)
+def test_a_dent_on_a_slender_ellipse_has_more_lines_than_columns(
+    radius_ratio: float, part: int, boundary: bool
+) -> None:
+    """It is as long as wide, and its cells are a_y/a_x times as long with as many lines."""
+    tables = moes_contact(36.0, 5.0, radius_ratio=radius_ratio).model_dump(exclude_none=True)
+    radius = 0.3 * ScaledProblem.of(ContactProblem.model_validate(tables)).scales.half_width_x
+    tables["surface_2"]["roughness"] = {"type": "bump", "amplitude": -5e-8, "radius": radius}
+    if boundary:
+        tables["contact_film"] = {"thickness": 1e-8}
+    problem = ContactProblem.model_validate(tables)
+    scaled = ScaledProblem.of(problem)
+    plan = planned(scaled, Options(error=0.02))
+    ny, nx = plan.shape
+    assert ny - 1 == part * (nx - 1)
+    # a smooth film without boundary contact has a wedge of third order, and so has a rough one
+    assert plan.order == (2 if boundary else 3)
+    domain, scales = domain_of(scaled, plan), scaled.scales
+    along, across = problem.shortest_wavelengths
+    cells = (
+        along / scales.half_width_x * (nx - 1) / (domain.x[1] - domain.x[0]),
+        across / scales.half_width_y * (ny - 1) / (domain.y[1] - domain.y[0]),
+    )
+    assert min(cells) >= WAVE_NODES

@@ -20,6 +20,7 @@ from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import (
     AT_EDGES,
+    BETWEEN_ROUGH,
     STARVED_DAMPING,
     UNCOMBINED,
     UNDAMPED,
@@ -32,6 +33,7 @@ from tehl.solver.judging.convergence import DivergedError
 from tehl.solver.judging.measures import nodal_film
 from tehl.solver.monitor import SILENT
 from tests.reference import heated_contact, moes_contact
+from tests.solver.rough import wavy
 from tests.solver.test_line import line
 
 OPTIONS = Options(extrapolate=True)
@@ -300,3 +302,12 @@ def test_a_film_too_thin_for_coarse_grids_converges_by_small_steps_of_relaxation
     # between less thin ones the usual strategies, which most of them take, come before
     less = ScaledProblem.of(moes_contact(60_000.0, 3.0, radius_ratio=16.0))
     assert [one.relaxation is THIN for one in ladder(less, options, rough=False)[:3]] == [0, 0, 1]
+
+
+def test_rough_contacts_fall_back_to_a_wedge_of_second_order_unless_nodes_or_order_are_stated():
+    scaled = ScaledProblem.of(wavy((200.0, 6.0), (0.1, 1.0, 0.0)))
+    orders = [one.wedge_order for one in ladder(scaled, Options(), rough=True)]
+    assert orders[:2] == [None, None]
+    assert orders[2:] == [2] * len(BETWEEN_ROUGH)
+    for stated in (Options(points=129), Options(wedge_order=3)):
+        assert ladder(scaled, stated, rough=True) == BETWEEN_ROUGH

@@ -1,6 +1,7 @@
 """Rough surfaces at rest: convergence of the cycles, and the status of the result."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,11 +14,13 @@ from tehl.base.errors import InputError
 from tehl.cli.text import as_text
 from tehl.contact.options import Domain, Options
 from tehl.estimate.grid import Grid
-from tehl.estimate.nodes import finest_grid
+from tehl.estimate.nodes import finest_grid, planned
 from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.operators.heights import full_weighting, heights_of
 from tehl.report.page import report_text
+from tehl.solver import steady
 from tehl.solver.cycle.anderson import Anderson
+from tehl.solver.cycle.ladder import BETWEEN_ROUGH
 from tests.cases import ball_tables
 from tests.operators.contacts import FLAT
 from tests.reference import DOMAIN, moes_contact
@@ -227,3 +230,37 @@ def test_waves_that_the_grid_loses_are_reported_and_count_for_lambda(tmp_path):
     assert "mean absolute height of surface 1 and of surface 2" in report_text(result, dpi=40)
     result.save(tmp_path / "a.nc")
     assert load(tmp_path / "a.nc").resolution == result.resolution
+
+
+@pytest.mark.parametrize("degrees", [0.0, 30.0])
+def test_a_rough_film_of_third_order_lies_within_its_bars_on_fewer_nodes(degrees: float) -> None:
+    contact, shape = (200.0, 6.0), (0.03, 1.0, degrees)
+    found = rough_film(contact, Options(), shape)
+    second = rough_film(contact, Options(wedge_order=2), shape)
+    fine = rough_film(contact, Options(points=1025, wedge_order=2), shape)
+    assert found.scaled.film.size < 0.3 * second.scaled.film.size
+    assert found.errors is not None
+    for name in ("central", "minimum"):
+        value, true = (getattr(one.film_scaled, name) for one in (found, fine))
+        assert value == pytest.approx(true, rel=getattr(found.errors, name))
+
+
+def test_heights_follow_strategies_to_grids_with_other_lines(monkeypatch: Any) -> None:
+    """A wedge of second order has as many lines as columns, where a slender contact has fewer."""
+    problem = moes_contact(50.0, 6.0, radius_ratio=30.0)
+    tables, unit = problem.model_dump(exclude_none=True), scales(problem)
+    wave = {"amplitude": 0.03 * unit.film_thickness, "wavelength": unit.half_width_x}
+    tables["surface_1"]["roughness"] = wave | {"type": "wave", "angle": 0.0}
+    rough = ContactProblem.model_validate(tables)
+    second = (replace(BETWEEN_ROUGH[0], wedge_order=2),)
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: second)
+    found = steady.solve(rough, Options(error=0.02))
+    (ny, nx), (lines, nodes) = (
+        found.scaled.film.shape,
+        planned(ScaledProblem.of(rough), Options(error=0.02)).shape,
+    )
+    assert lines < nodes
+    assert nx >= nodes
+    assert ny == nx
+    assert found.heights is not None
+    assert found.heights.surface_1.shape == (ny, nx)

@@ -1,6 +1,7 @@
 """Number of nodes, planned for the error to reach."""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 from tehl.contact.options import Domain, Options
@@ -11,7 +12,7 @@ from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.grid import END_CELL, END_FILM, Grid, can_mirror, crowding
 from tehl.estimate.line import LINE_ROUGH_NODES, line_bar, line_points
 from tehl.estimate.scaling import Groups, ScaledProblem
-from tehl.estimate.settled import crowds_at_ends, settled
+from tehl.estimate.settled import crowds_at_ends, raises_order, settled
 from tehl.estimate.starvation import is_starved, supplied_film, supply_ratio
 from tehl.estimate.summits import shared_load
 from tehl.estimate.third_order import third_order_bar
@@ -69,8 +70,10 @@ of a_y/a_x."""
 MOST_LINES, LONGEST_CELL = 2.0, 2.6
 """Most lines over columns, and most over a_y/a_x: the lines of cells longer than that along x
 couple more across than along, and the cycles diverge (a_y/a_x = 0.2, M = 500, as many lines)."""
-WAVE_NODES, ROUGH_NODES = 20.0, 1024
-"""Nodes on the shortest wave of the surfaces, and most nodes for that reason."""
+WAVE_NODES, ROUGH_NODES, ROUGH_PARTS = 20.0, 1024, (1, 2, 4)
+"""Nodes on the shortest wave of the surfaces; most nodes for that reason, along a roller and as the
+root of all others; and lines over columns for that reason, in cells that are not shorter than wide:
+a dent on a slender ellipse (a_y/a_x = 10) has 16 nodes along x where it has 3 along y."""
 
 
 def expected_bar(
@@ -146,12 +149,16 @@ def expected_points(  # noqa: PLR0913 (one formula)
     return next((nodes for nodes, bar in bars if nodes > least and bar <= left), FAMILIES[-1])
 
 
-def _roller_points(groups: Groups, domain: Domain, options: Options, least: float) -> int:
-    """Return the nodes along a roller's entrainment for an error of its middle."""
-    factor = 1.0 if options.order > 2 else SECOND_ORDER_BAR
+def _points_of_roller(scaled: ScaledProblem, domain: Domain, options: Options) -> tuple[int, int]:
+    """Return the nodes along a roller's entrainment for an error of its middle, and the lines."""
+    groups, factor = scaled.entering, 1.0 if options.order > 2 else SECOND_ORDER_BAR
+    least, lines = (min(one, ROUGH_NODES) for one in _nodes_of_waves(scaled, domain))
     bars = ((nodes, factor * line_bar(groups, domain, nodes)) for nodes in ROLLER_NODES)
     enough = (n for n, bar in bars if n > least and bar <= options.target)
-    return next(enough, ROLLER_NODES[-1])
+    nodes = next(enough, ROLLER_NODES[-1])
+    if groups.shape.goes_on:
+        return nodes, _lines_of_piece(nodes, lines)
+    return nodes, _lines_of_roller(nodes, lines)
 
 
 def _lines_of_piece(nodes: int, least: float) -> int:
@@ -173,26 +180,44 @@ def _left_to_the_mesh(groups: Groups, domain: Domain, error: float) -> float:
 
 
 def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> tuple[float, float]:
-    """Return the nodes along x and y that put `WAVE_NODES` on the shortest wave.
-
-    They are `ROUGH_NODES` at most, and alike, but for lines and pieces of rollers.
-    """
+    """Return the nodes along x and y that put `WAVE_NODES` on the shortest wave."""
     problem, scales = scaled.problem, scaled.scales
     along, across = problem.shortest_wavelengths
     along = (domain.x[1] - domain.x[0]) * scales.half_width_x / along
     across = (domain.y[1] - domain.y[0]) * scales.half_width_y / across
-    if problem.contact.is_line:
-        return min(WAVE_NODES * along, LINE_ROUGH_NODES), 0.0
-    if scaled.groups.shape.as_line:
-        return min(WAVE_NODES * along, ROUGH_NODES), min(WAVE_NODES * across, ROUGH_NODES)
-    both = min(WAVE_NODES * max(along, across), ROUGH_NODES)
-    return both, both
+    return WAVE_NODES * along, WAVE_NODES * across
+
+
+def _points_of_waves(
+    scaled: ScaledProblem, domain: Domain, enough: Callable[[float], tuple[int, int]]
+) -> tuple[int, int]:
+    """Return the fewest nodes (nx, ny) that film and waves of a point contact need.
+
+    Where waves need more than `ROUGH_NODES` allow, those that come nearest.
+
+    Parameters
+    ----------
+    scaled, domain : ScaledProblem, Domain
+        The contact, and the domain of the solve.
+    enough : callable
+        Returns the nodes (nx, ny) for the film, more along x than those for the waves.
+    """
+    along, across = _nodes_of_waves(scaled, domain)
+    slender, found = max(scaled.groups.ellipticity, 1.0), []
+    for part in (one for one in ROUGH_PARTS if one <= slender):
+        wanted, most = max(along, across / part), ROUGH_NODES / math.sqrt(part)
+        nodes, lines = enough(min(wanted, most))
+        while lines <= across and lines < part * (nodes - 1):
+            lines = 2 * lines - 1
+        found.append((max(wanted / most, 1.0), nodes * lines, nodes, lines))
+    return min(found)[2:]
 
 
 def planned(scaled: ScaledProblem, options: Options) -> Options:
     """Return ``options`` with the nodes on which the error to reach is expected.
 
-    Options that state ``points`` are returned as they are.
+    Options that state ``points`` are returned as they are. Others of a rough point contact get a
+    wedge of third order (`raises_order`).
 
     Parameters
     ----------
@@ -204,25 +229,30 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     options = settled(scaled.problem, options)
     if options.points != "auto":
         return options
-    domain, is_line = domain_of(scaled, options), scaled.problem.contact.is_line
-    least, lines = _nodes_of_waves(scaled, domain)
-    if options.order > 2 and not scaled.problem.contact.has_lines:
-        return options.on_points(*_third_order_points(scaled, domain, options.target, least))
-    if scaled.problem.contact.has_lines and not is_line:
-        nodes = _roller_points(scaled.entering, domain, options, least)
-        if scaled.groups.shape.goes_on:
-            return options.on_points(nodes, _lines_of_piece(nodes, lines))
-        return options.on_points(nodes, _lines_of_roller(nodes, lines))
-    nodes = expected_points(
-        scaled.entering,
-        domain,
-        options.target,
-        is_coupled=scaled.problem.is_coupled,
-        least=least,
-        film=film_to_resolve(scaled),
-        extrapolate=bool(options.extrapolate),
-    )
-    return options.on_points(nodes, 1 if is_line else nodes)
+    domain, kind = domain_of(scaled, options), scaled.problem.contact
+    if raises_order(scaled.problem, options):
+        options = options.model_copy(update={"wedge_order": 3})
+    if kind.has_lines and not kind.is_line:
+        return options.on_points(*_points_of_roller(scaled, domain, options))
+
+    def enough(least: float) -> tuple[int, int]:
+        if options.order > 2 and not kind.is_line:
+            return _third_order_points(scaled, domain, options.target, least)
+        nodes = expected_points(
+            scaled.entering,
+            domain,
+            options.target,
+            is_coupled=scaled.problem.is_coupled,
+            least=least,
+            film=film_to_resolve(scaled),
+            extrapolate=bool(options.extrapolate),
+        )
+        return nodes, nodes
+
+    if kind.is_line:
+        least, _ = _nodes_of_waves(scaled, domain)
+        return options.on_points(enough(min(least, LINE_ROUGH_NODES))[0], 1)
+    return options.on_points(*_points_of_waves(scaled, domain, enough))
 
 
 def _third_order_points(

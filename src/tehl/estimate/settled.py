@@ -36,6 +36,30 @@ def settled(problem: ContactProblem, options: Options) -> Options:
     return options.model_copy(update={"extrapolate": found})
 
 
+def raises_order(problem: ContactProblem, options: Options) -> bool:
+    """Return whether a rough point contact has a wedge of third order, as its smooth film has.
+
+    Two grids of second order that resolve the heights differ by much of the error of the film: 40
+    random contacts take 0.3 of the CPU time, and six more reach 2 %. Fluxes that boundary contact
+    and time steps bound have other orders.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Steady, without boundary contact, if it has.
+    options : Options
+        Those that state nodes or an order keep it.
+    """
+    is_free = options.points == "auto" and options.wedge_order is None
+    return is_free and problem.is_rough and _is_steady(problem)
+
+
+def _is_steady(problem: ContactProblem) -> bool:
+    """Whether a point contact is steady, and nothing touches on its mesh."""
+    is_point = not problem.contact.has_lines
+    return is_point and problem.transient is None and problem.contact_film is None
+
+
 def _between_ends(problem: ContactProblem, options: Options) -> Options:
     """Return the options of a roller, whose domain ends where it does.
 

@@ -125,7 +125,7 @@ class Climb:
         yield from ((plan, one) for one in own)
         lines, nodes = plan.shape
         if lines > 1 and self.scaled.groups.ellipticity >= 1.0 and len(own) < len(rungs):
-            plan = self.goal.fitting(plan.on_points(nodes, nodes))
+            plan = self.goal.fitting(plan.on_points(nodes, max(lines, nodes)))
             yield from ((plan, one) for one in own if lines < nodes)
         for one in rungs[len(own) :]:
             if one.wedge_order != plan.order:

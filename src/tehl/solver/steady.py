@@ -14,8 +14,9 @@ from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import domain_of
 from tehl.estimate.film_formulas import check_film
+from tehl.estimate.grid import Grid
 from tehl.estimate.memory import check_memory
-from tehl.estimate.nodes import finest_grid, planned
+from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.estimate.starvation import FORMULA_ERROR, Flooded, check_supply
@@ -34,7 +35,8 @@ from tehl.result.solution import (
 from tehl.solver.attempts import NO_MEMORY, Attempt, Climb
 from tehl.solver.cost import Clock, end_of_time
 from tehl.solver.cycle.film_solver import FilmSolver
-from tehl.solver.cycle.ladder import ladder
+from tehl.solver.cycle.hierarchy import Hierarchy
+from tehl.solver.cycle.ladder import Strategy, ladder
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.extrapolation import Outputs, extrapolated, outputs_of
 from tehl.solver.judging.film_summary import central_value, film_summary
@@ -167,13 +169,18 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     check_supply(scaled, domain_of(scaled, plan))
     check_film(scaled)
     check_memory(plan, problem)
-    heights = heights_of(scaled, finest_grid(scaled, plan)) if rough else None
+    heights = cache(partial(heights_of, scaled) if rough else _no_heights)
     # at other accuracies full multigrid is done before a better start saves a cycle
     start = guess if options.accuracy == "tight" else None
-    solver = partial(FilmSolver, heights=heights, goal=goal, monitor=history, guess=start)
-    best = Climb(scaled, goal, history, solver).best(
-        plan, ladder(scaled, options, rough=heights is not None)
-    )
+
+    def solver(hierarchy: Hierarchy, strategy: Strategy) -> FilmSolver:
+        known = heights(hierarchy.finest.grid)
+        return FilmSolver(
+            hierarchy, strategy, heights=known, goal=goal, monitor=history, guess=start
+        )
+
+    rungs = ladder(scaled, options, rough=rough and problem.is_rough)
+    best = Climb(scaled, goal, history, solver).best(plan, rungs)
     supplied = _supplied(best.run.finest, flooded)
     result = _result(best, options, tuple(history.reports), clock.cost()).but(supplied=supplied)
     if problem.dynamics is None or not best.status.converged:
@@ -181,6 +188,11 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     # last, as it overwrites the coarser levels
     monitor.message("stiffness and damping")
     return best, with_dynamics(result, best.run).but(cost=clock.cost())
+
+
+def _no_heights(grid: Grid) -> None:
+    """Return the heights of smooth surfaces on a grid."""
+    del grid
 
 
 def flooded_film(

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.settled import raises_order
 from tehl.solver.cycle.continuation import Continuation
 from tehl.solver.cycle.relaxation import (
     BESIDE_NEWTON,
@@ -201,13 +202,23 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
     if options.smoother != "auto":
         return (STATED[options.smoother],)
     if rough:
-        # with heat, Newton steps converge no better than cycles, at ten times the cost
-        cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
-        # and their Jacobian lacks partly filled cavities
-        return cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
+        return _between_rough(problem, options)
     if options.order < 3 or options.wedge_order is not None:
         return _rungs(problem)
     return _with_third_order(scaled, _rungs(problem))
+
+
+def _between_rough(problem: ContactProblem, options: Options) -> tuple[Strategy, ...]:
+    """Return the strategies for rough surfaces, those with a wedge of third order first."""
+    # with heat, Newton steps converge no better than cycles, at ten times the cost
+    cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
+    # and their Jacobian lacks partly filled cavities
+    rungs = cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
+    if not raises_order(problem, options):
+        return rungs
+    # between high waves cycles with third order do not converge, nor do Newton steps
+    second = (replace(one, wedge_order=2) for one in rungs)
+    return (*cycles[:THIRD_ORDER_STRATEGIES], *second)
 
 
 def _with_third_order(scaled: ScaledProblem, rungs: tuple[Strategy, ...]) -> tuple[Strategy, ...]:

@@ -51,8 +51,8 @@ def solved_on_other_nodes(
     scaled = ScaledProblem.of(failed.problem)
     lines, nodes = planned(scaled, failed.options).shape
     keeps = scaled.groups.ellipticity < 1.0 or failed.problem.contact.has_lines
-    part = min((lines - 1) / (nodes - 1), 1.0) if keeps else 1.0
-    nodes = nodes if part < 1.0 else max(lines, nodes)
+    part = (lines - 1) / (nodes - 1)
+    part = part if keeps or part > 1.0 else 1.0
     for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHER_GRIDS]:
         left = _time_of_trial(failed, end)
         if left < LEAST_TRIAL * failed.cost.wall_seconds:
