@@ -148,6 +148,7 @@ MISTAKES = [
     ("lubricant.shear={law='limiting', slope=-1}", "lubricant.shear.slope = -1", "0.04"),
     ("title=4", "title = 4", "must be a string"),
     ("numerics=3", "write [numerics] on a line of its own", 'error = "1 %" below it'),
+    ("thermal=true", "write [thermal] on a line of its own", "or {} in place of true for its"),
     ("numerics.max_time={}", "numerics.max_time is a number, not a table", "below [numerics]"),
     ("lubricant.viscosity=5", "must be a table such as", '{ law = "roelands", eta_0 = '),
     ("numerics.points=100", "numerics.points = 100", "cannot be coarsened"),

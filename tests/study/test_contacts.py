@@ -13,6 +13,7 @@ from tehl.base.errors import InputError
 from tehl.cli import application
 from tehl.estimate.settled import settled
 from tehl.io.templates import template_text
+from tehl.result.solution import Hint
 from tehl.studies import Store
 from tehl.studies.answers import answers, values_of
 from tehl.studies.case import Case, Row
@@ -293,6 +294,19 @@ def test_an_answer_that_a_row_states_itself_is_not_repeated(tmp_path, template, 
     assert "Hertz pressure [GPa]" not in first
     assert second["Hertz pressure [GPa]"] == pytest.approx(0.8)
     assert first["central film [nm]"] == second["central film [nm]"] == pytest.approx(100.0)
+
+
+def test_an_answer_that_is_uncertain_names_what_remains_open(tmp_path, template, monkeypatch):
+    path = tmp_path / "list.csv"
+    path.write_text("load [N]\n20\n")
+    known = {"message": "The pressure has no limit.", "hint": Hint("Relieve the ends.")}
+
+    def rows(_, cases: list[Case]):
+        return {case.key: Row(key=case.key, status="converged", **known) for case in cases}
+
+    monkeypatch.setattr(Store, "rows", rows)
+    (line,) = answers(read_contacts(path, template), Store(tmp_path / "s"))
+    assert line["obtained"].endswith("The pressure has no limit. Relieve the ends.")
 
 
 def test_films_of_a_list_without_a_template_have_the_default_error():

@@ -315,7 +315,12 @@ def _not_a_table(mistake: _Mistake) -> str:
     fields = (pair for model in models for pair in model.model_fields.items())
     keys = (f"{key} = {good}" for key, field in fields if (good := example(field)))
     key = next(keys, "its keys")
-    return f"must be a table: write [{mistake.name}] on a line of its own and {key} below it"
+    words = f"must be a table: write [{mistake.name}] on a line of its own and {key} below it"
+    parent = field_at(mistake.models[-2], mistake.path[-1]) if mistake.path else None
+    required = [field.is_required() for model in models for field in model.model_fields.values()]
+    if parent is None or parent.is_required() or any(required):
+        return words
+    return f"{words}, or {{}} in place of {shown(mistake.value)} for its defaults"
 
 
 def _of_heading(mistake: _Mistake) -> str:

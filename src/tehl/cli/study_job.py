@@ -326,7 +326,7 @@ def show_outcome(outcome: Outcome, written: Iterable[str], what: str, remark: st
     uncertain, more = outcome.uncertain, len(outcome.failed) - MOST_NAMED_CASES
     lines = [
         f"{outcome.equal} further rows equal others, and are solved once" if outcome.equal else "",
-        f"{uncertain} of them with an uncertain minimum film: see the messages in the table"
+        f"{uncertain} of them with an uncertain minimum film or pressure: see the table"
         if uncertain
         else "",
         remark,

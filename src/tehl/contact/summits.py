@@ -32,7 +32,7 @@ from pydantic import Field, model_validator
 
 from tehl.base.table import Table
 from tehl.base.typing import np
-from tehl.base.units import Height, Length, Quantity
+from tehl.base.units import Height, Quantity, SummitRadius
 from tehl.roughness.map import Map
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ class GreenwoodTripp(_Summits):
     rms: Height | None = None
     """Standard deviation sigma of the heights of both surfaces together [m]; None is that of the
     stated ``rms_roughness`` of both."""
-    summit_radius: Length
+    summit_radius: SummitRadius
     """Radius beta of a summit [m]."""
     summit_density: SummitDensity
     """Summits per area, eta [1/m^2]."""

@@ -105,7 +105,9 @@ def _obtained(row: Row | None) -> str:
     worst = max((one for one in errors if isinstance(one, int | float)), default=None)
     nx, ny = (int(row.summary.get(f"cost.points.{axis}") or 0) for axis in (0, 1))
     text = f"solved on {grid_size((nx, ny))}"
-    return text if worst is None else f"{text}, film to {percentage(worst)}"
+    if worst is not None:
+        text = f"{text}, film to {percentage(worst)}"
+    return f"{text}. {row.message} {row.hint}" if row.hint else text  # converged, but uncertain
 
 
 def _headings_of(lines: Iterable[Mapping[str, Any]], contacts: Contacts) -> list[str]:
