@@ -14,6 +14,7 @@ from tehl.api.results import ConvergenceError, TransientResult
 from tehl.contact.options import Options
 from tehl.estimate.scaling import scales
 from tehl.result.solution import Status
+from tehl.solver.cost import working_time
 from tehl.solver.judging.richardson import grid_bar
 from tehl.solver.transient.certify import estimates, history_bars
 from tests.fixtures_result import make_result
@@ -135,11 +136,12 @@ class Replayed:
     """Replaces the runs (finest, half, larger domain, quarter) and records their arguments."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, *outcomes: object) -> None:
-        self.outcomes, self.calls = list(outcomes), []
+        self.outcomes, self.calls, self.ends = list(outcomes), [], []
         monkeypatch.setattr(sys.modules[MODULE], "solve_transient", self)
 
-    def __call__(self, problem, options, *, monitor):
+    def __call__(self, problem, options, *, monitor, until):
         del monitor
+        self.ends.append(until)
         self.calls.append((options.points, problem.transient))
         outcome = self.outcomes.pop(0)
         if isinstance(outcome, Exception):
@@ -163,6 +165,15 @@ def test_the_other_runs_have_the_same_stride_and_store_no_fields(monkeypatch):
     assert [points for points, _ in replayed.calls] == [129, (65, 65), 129, (33, 33)]
     assert [transient.frames for _, transient in replayed.calls] == [3, 0, 0, 0]
     assert {transient.stride for _, transient in replayed.calls} == {2}
+
+
+def test_all_runs_share_the_time_that_is_stated(monkeypatch):
+    """Each of them had all of it."""
+    replayed = Replayed(monkeypatch, *[every(step) for step in (1, 2, 2, 4)])
+    begun = working_time()
+    certify_transient(passing(), options(129).model_copy(update={"max_time": 60.0}))
+    assert len(set(replayed.ends)) == 1
+    assert replayed.ends[0] == pytest.approx(begun + 60.0, abs=5.0)
 
 
 def test_there_is_no_bar_if_the_larger_domain_fails(monkeypatch):

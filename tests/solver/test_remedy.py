@@ -17,7 +17,7 @@ from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.result.solution import Hint, Status
 from tehl.solver import steady
-from tehl.solver.cost import LEAST_SECONDS, end_of_time
+from tehl.solver.cost import LEAST_SECONDS, end_of_time, working_time
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.judging.diagnosis import error_setting
 from tehl.solver.judging.goal import Goal
@@ -169,7 +169,7 @@ def test_no_hint_is_tried_after_the_time_of_the_solve_is_over():
         limits.append(options.max_time)
         raise InputError("no memory")
 
-    working_hint(failed, fails, SILENT, time.perf_counter() - 10.0)
+    working_hint(failed, fails, SILENT, working_time() - 10.0)
     assert max(limits) <= 1.0  # the least time that trials get
 
 
@@ -193,11 +193,11 @@ def test_a_trial_ends_after_the_time_that_is_left(monkeypatch):
     limits: list[float] = []
 
     def fails(_, options: Options, **_others):
-        limits.append(end_of_time(options) - time.perf_counter())
+        limits.append(end_of_time(options) - working_time())
         raise InputError("no memory")
 
     monkeypatch.setattr(steady, "try_strategies", fails)
-    result = steady._after_failure(failed, None, SILENT, time.perf_counter() - 10.0)
+    result = steady._after_failure(failed, None, SILENT, working_time() - 10.0)
     assert "No setting is known" in str(result.status.hint)
     assert limits
     assert max(limits) <= LEAST_SECONDS
@@ -228,6 +228,6 @@ def test_other_nodes_keep_the_lines_of_a_roller_and_need_a_part_of_the_time(seco
         tried.append(options.points)
         raise InputError("no memory")
 
-    end = time.perf_counter() + seconds
+    end = working_time() + seconds
     assert solved_on_other_nodes(failed, fails, SILENT, end) is None
     assert tried == ([] if seconds < 1.0 else [(321, 161), (385, 193)])

@@ -11,7 +11,6 @@ from tehl.api.results import ConvergenceError, TransientResult
 from tehl.contact.options import Domain, Options
 from tehl.estimate.scaling import scales
 from tehl.result.solution import Status
-from tehl.solver.cost import Clock
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient import run
 from tehl.solver.transient.run import Run
@@ -91,6 +90,21 @@ def test_a_tight_start_that_misses_the_error_gives_way_to_the_accuracy_of_the_op
     monkeypatch.setattr(run, "try_strategies", without_time)
     assert solve_transient(in_time(0.2), OPTIONS).status.converged
     assert tried == ["tight", OPTIONS.accuracy]
+
+
+def test_a_start_on_a_grid_that_is_too_coarse_is_solved_once(monkeypatch):
+    solved, tried = run.try_strategies, []
+
+    def counted(problem, options, **others):
+        tried.append(options.accuracy)
+        return solved(problem, options, **others)
+
+    monkeypatch.setattr(run, "try_strategies", counted)
+    given = moes_contact(300.0, L).model_dump(exclude_none=True)
+    problem = ContactProblem.model_validate(given | {"transient": {"duration": 1e-4}})
+    with pytest.raises(ConvergenceError, match="the grid is too coarse for the film"):
+        solve_transient(problem, Options(points=33, domain=DOMAIN))
+    assert tried == ["tight"]
 
 
 def test_the_film_at_time_zero_is_the_steady_film():
@@ -402,7 +416,8 @@ def test_an_unreachable_tolerance_is_reported():
 
 def test_a_run_ends_at_the_time_that_is_stated_and_continues_from_there(monkeypatch):
     case, kept = in_time(0.5), []
-    monkeypatch.setattr(Clock, "seconds", property(lambda _: float(len(kept))))
+    monkeypatch.setattr("tehl.solver.transient.run.working_time", lambda: float(len(kept)))
+    monkeypatch.setattr("tehl.solver.transient.run.end_of_time", lambda one: one.max_time)
     stated = OPTIONS.model_copy(update={"max_time": 2.5})
     run = solve_transient(case, stated, keep=lambda snapshot: kept.append(snapshot.copy()))
     assert run.status.cause == "time_over"

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from numba import config, njit
+from numba.core import event
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler, CompilerBase, DefaultPassBuilder
 
@@ -18,6 +19,14 @@ from tehl.kernels import cache
 Function = TypeVar("Function", bound=Callable[..., Any])
 HOOKS = ("_optimize_final_module", "_finalize_final_module", "_finalize_dynamic_globals")
 """Methods of numba's class that `_LeftToCallers` overrides or calls."""
+
+_COMPILING = event.TimingListener()
+event.register("numba:compile", _COMPILING)
+
+
+def seconds_compiling() -> float:
+    """Return the time for which this process has compiled kernels and helpers so far [s]."""
+    return _COMPILING.duration if _COMPILING.done else 0.0
 
 
 def kernel(function: Function) -> Function:

@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from tehl.contact.options import Options
+from tehl.kernels.compiled import seconds_compiling
 from tehl.result.solution import NO_COST, Cost, Solution
 
 Kind = TypeVar("Kind", bound=Solution)
@@ -22,29 +23,31 @@ TIMED = 513
 
 
 class Clock:
-    """Measures the cost from now on, in addition to that of earlier parts of a resumed run.
+    """Measures the cost from now on, in addition to that of earlier parts of a resumed run."""
 
-    ``limit`` is the wall time after which this part ends [s].
-    """
-
-    def __init__(self, limit: float = math.inf) -> None:
-        self.before, self.limit = NO_COST, limit
+    def __init__(self) -> None:
+        self.before = NO_COST
         self._wall, self._cpu = time.perf_counter(), time.process_time()
-
-    @property
-    def seconds(self) -> float:
-        """Wall time from the start of this part [s]."""
-        return time.perf_counter() - self._wall
 
     def cost(self) -> Cost:
         """Return the cost so far."""
         return self.before + Cost(
-            cpu_seconds=time.process_time() - self._cpu, wall_seconds=self.seconds
+            cpu_seconds=time.process_time() - self._cpu,
+            wall_seconds=time.perf_counter() - self._wall,
         )
 
 
+def working_time() -> float:
+    """Return the clock of all limits of time: wall time without that of compilation [s].
+
+    Kernels that few contacts need are compiled when a solve first calls one (`samples.RARE`), each
+    for seconds and only once.
+    """
+    return time.perf_counter() - seconds_compiling()
+
+
 def end_of_time(options: Options) -> float:
-    """Return when the time of a solve that begins now is over, on the clock of `perf_counter` [s].
+    """Return when the time of a solve that begins now is over, on the clock of `working_time` [s].
 
     Never on stated nodes without a stated ``max_time``.
 
@@ -54,7 +57,7 @@ def end_of_time(options: Options) -> float:
         With the limit of the time, and the nodes.
     """
     is_limited = options.points == "auto" or "max_time" in options.model_fields_set
-    return time.perf_counter() + options.max_time if is_limited else math.inf
+    return working_time() + options.max_time if is_limited else math.inf
 
 
 def fft_seconds(nx: int, ny: int) -> float:

@@ -1,7 +1,6 @@
 """Solve a steady contact: choose the grid, try the strategies, judge, assemble the result."""
 
 import platform
-import time
 from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cache, partial
@@ -33,7 +32,7 @@ from tehl.result.solution import (
     Supplied,
 )
 from tehl.solver.attempts import NO_MEMORY, Attempt, Climb
-from tehl.solver.cost import Clock, end_of_time
+from tehl.solver.cost import Clock, end_of_time, working_time
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy, ladder
@@ -93,7 +92,7 @@ def _after_failure(
 ) -> Solution:
     """Return the film on other nodes if it converges there, else the failed one with a hint.
 
-    Nothing is tried after ``end`` on the clock of `time.perf_counter`.
+    Nothing is tried after ``end`` on the clock of `working_time`.
 
     A coarser film that converged on the way, on the nodes and with the error of ``reached``, takes
     the place of the failed one.
@@ -116,7 +115,7 @@ def _after_failure(
         return failed
     (nx, ny), error = reached
     again = failed.options.on_points(nx, ny)
-    left = max(end - time.perf_counter(), 0.0)
+    left = max(end - working_time(), 0.0)
     kept = attempt(failed.problem, again.model_copy(update={"max_time": left}))
     if not kept.status.converged:
         return failed
@@ -154,7 +153,7 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     of_central : bool
         As in `Goal`.
     until : float or None
-        When the time is over, on the clock of `time.perf_counter` [s]; None is that of the options.
+        When the time is over, on the clock of `working_time` [s]; None is that of the options.
     """
     warm_up(coupled=problem.is_coupled)
     until = end_of_time(options) if until is None else until

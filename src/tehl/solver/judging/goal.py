@@ -1,7 +1,6 @@
 """The accuracy to reach, and whether a finer grid follows."""
 
 import math
-import time
 from dataclasses import dataclass, field
 
 from tehl.base.units import percentage
@@ -13,7 +12,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.spin import spin_error
 from tehl.estimate.starvation import supply_error
 from tehl.result.bars import ErrorEstimate
-from tehl.solver.cost import LEAST_SECONDS
+from tehl.solver.cost import LEAST_SECONDS, working_time
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.measures import (
     is_thinnest_at_side,
@@ -56,7 +55,7 @@ class Goal:
     of_central : bool
         Whether the error is that of the central film alone: a supply is stated to that.
     until : float
-        When the time is over, on the clock of `time.perf_counter` [s].
+        When the time is over, on the clock of `working_time` [s].
     """
 
     scaled: ScaledProblem
@@ -67,8 +66,8 @@ class Goal:
     """Why no finer grid follows."""
     _tries: int = 0
     _others: int = 0
-    _started: float = field(default_factory=time.perf_counter)
-    _last: float = field(default_factory=time.perf_counter)
+    _started: float = field(default_factory=working_time)
+    _last: float = field(default_factory=working_time)
 
     @property
     def target(self) -> float:
@@ -121,7 +120,7 @@ class Goal:
 
     def begin_grid(self) -> None:
         """Note the time at which the work on a grid begins."""
-        self._last = time.perf_counter()
+        self._last = working_time()
 
     def is_met(
         self, errors: ErrorEstimate | None, part: float = 1.0, error: float | None = None
@@ -145,7 +144,7 @@ class Goal:
     @property
     def is_over(self) -> bool:
         """Whether the time is over, so that no other cycle begins."""
-        return time.perf_counter() > max(self.until, self._started + LEAST_SECONDS)
+        return working_time() > max(self.until, self._started + LEAST_SECONDS)
 
     def may_try(self, level: Level) -> bool:
         """Return whether a finer grid may follow one that did not converge."""
@@ -265,7 +264,7 @@ class Goal:
             Of that level; the part of the domain would not become smaller.
         """
         nx, ny = (2 * (n - 1) + 1 for n in level.grid.points)
-        now, limit = time.perf_counter(), self.options.max_time
+        now, limit = working_time(), self.options.max_time
         expected = FACTOR * (now - self._last)
         needed = self._needed((nx, ny))
         available, supply = memory_limit(self.options), supply_error(self.scaled)

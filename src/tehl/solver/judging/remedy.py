@@ -1,7 +1,6 @@
 """Settings that work where a solve failed: they are tried before a hint names them."""
 
 import math
-import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import partial
@@ -14,7 +13,7 @@ from tehl.contact.problem import ContactProblem
 from tehl.estimate.nodes import FAMILIES, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.result.solution import Hint, Settings, Solution, settings_text
-from tehl.solver.cost import LEAST_SECONDS
+from tehl.solver.cost import LEAST_SECONDS, working_time
 from tehl.solver.judging.diagnosis import error_setting
 from tehl.solver.monitor import Monitor
 
@@ -83,11 +82,11 @@ def working_hint(
     monitor : Monitor
         Receives what is tried.
     end : float
-        When ``numerics.max_time`` is over, on the clock of `time.perf_counter` [s].
+        When ``numerics.max_time`` is over, on the clock of `working_time` [s].
     reached : Reached or None
         The film that converged on the way: nothing worse is named.
     """
-    now = time.perf_counter()
+    now = working_time()
     enough = now + TRIAL_TIME_FACTOR * failed.cost.wall_seconds
     found, is_short = None, end < enough
     end = max(min(enough, end), now + LEAST_SECONDS)
@@ -95,7 +94,7 @@ def working_hint(
     for trials in (_default_domain(failed), _errors(failed, least), _other_physics(failed)):
         hopeless: set[tuple[int, int]] = set()
         for settings, problem, options in trials:
-            if end <= time.perf_counter():
+            if end <= working_time():
                 break
             # what fails on a grid for a larger error fails there for a smaller one
             grid = planned(ScaledProblem.of(problem), options).shape
@@ -112,7 +111,7 @@ def working_hint(
     if reached is not None:
         (nx, ny), error = reached
         return Hint(f"{grid_size((nx, ny))} converged.", error_setting(error))
-    if is_short and end <= time.perf_counter():
+    if is_short and end <= working_time():
         return _untried(failed)
     other = "; lower or longer asperities may" if failed.problem.is_rough else ""
     return Hint(f"No setting is known with which this contact converges{other}.")
@@ -128,7 +127,7 @@ def _untried(failed: Solution) -> Hint:
 
 def _time_of_trial(failed: Solution, end: float) -> float:
     """Return the time for one trial [s]: that of the failed solve, which tried all strategies."""
-    left = end - time.perf_counter()
+    left = end - working_time()
     return min(left, max(failed.cost.wall_seconds, LEAST_SECONDS))
 
 

@@ -47,7 +47,7 @@ def solve(
         Receives the report of each cycle, and a message for each film between bodies whose
         temperatures are computed; cycles of the first of them only.
     until : float
-        When the time is over, on the clock of `time.perf_counter` [s]; that of the options if left
+        When the time is over, on the clock of `working_time` [s]; that of the options if left
         out.
 
     Returns

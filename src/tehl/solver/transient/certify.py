@@ -18,6 +18,7 @@ from tehl.estimate.settled import settled
 from tehl.result.bars import Estimate, shows_second_order
 from tehl.result.solution import ConvergenceError
 from tehl.result.transient import HistoryBars, TransientSolution
+from tehl.solver.cost import end_of_time
 from tehl.solver.judging.certify import (
     WITHOUT_FIRST,
     Companion,
@@ -82,20 +83,22 @@ def certify_transient(
         When the transient problem is not valid, or the grid cannot be halved.
     """
     options = options or Options()
+    until = end_of_time(options) if "max_time" in options.model_fields_set else None
     if problem.contact.has_lines:
         options = settled(problem, options)
     if options.points != "auto":
         check_certifiable(options, transient=True)
     monitor.message("certify: the finest grid")
     # the finest run is first, because it decides whether the problem is valid
-    finest = solve_transient(problem, options, monitor=monitor)
+    finest = solve_transient(problem, options, monitor=monitor, until=until)
     if options.points == "auto":
         options = finest.start.grid_options
     if not finest.status.converged:
         return finest
     assert problem.transient is not None
     no_frames = problem.transient.model_copy(update={"frames": 0})  # only the finest has fields
-    solve = partial(_companion, problem.model_copy(update={"transient": no_frames}), monitor)
+    others = problem.model_copy(update={"transient": no_frames})
+    solve = partial(_companion, others, monitor, until)
     middle = solve(halved(options, 1), "half the intervals")
     if middle.result is None:
         return _not_certified(finest, "the run on half the intervals", middle)
@@ -125,7 +128,13 @@ def _message(finest: TransientSolution, coarse: Other, middle: Other, wide: Othe
     return message if coarse.result is not None else f"{message} {WITHOUT_FIRST}"
 
 
-def _companion(problem: ContactProblem, monitor: StepMonitor, options: Options, what: str) -> Other:
+def _companion(
+    problem: ContactProblem,
+    monitor: StepMonitor,
+    until: float | None,
+    options: Options,
+    what: str,
+) -> Other:
     """Solve on another grid; a run that fails has no result."""
     name = nodes_of(options)
     if not can_be_halved(options, 0):
@@ -133,7 +142,7 @@ def _companion(problem: ContactProblem, monitor: StepMonitor, options: Options, 
     monitor.message(f"certify: {name} nodes, {what}")
     found: Other
     try:
-        run = solve_transient(problem, options, monitor=monitor)
+        run = solve_transient(problem, options, monitor=monitor, until=until)
     except InputError as error:
         found = Companion(ending=f"{name} not possible ({error})")
     except ConvergenceError as error:

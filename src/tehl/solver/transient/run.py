@@ -1,9 +1,9 @@
 """Transient runs: the steady film at time zero, then the time steps to the end."""
 
 import math
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
+from functools import partial
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from tehl.operators.heights import MovingHeights
 from tehl.result.solution import ConvergenceError, Hint, Solution, Status
 from tehl.result.transient import TIME_OVER, StepReport, TransientSolution
 from tehl.solver.attempts import Attempt
-from tehl.solver.cost import Clock, end_of_time
+from tehl.solver.cost import Clock, end_of_time, working_time
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
 from tehl.solver.judging.measures import is_resolved, mid_film_stress, mid_film_traction
@@ -50,6 +50,7 @@ def solve_transient(
     monitor: StepMonitor = SILENT,
     resume: Snapshot | None = None,
     keep: Callable[[Snapshot], None] | None = None,
+    until: float | None = None,
 ) -> TransientSolution:
     """Solve a transient contact.
 
@@ -65,6 +66,8 @@ def solve_transient(
         State of an interrupted run of the same problem.
     keep : callable
         Called with a snapshot after each step; copies it if it is to be kept.
+    until : float
+        When the time is over, on the clock of `working_time` [s]; that of the options if left out.
 
     Returns
     -------
@@ -83,7 +86,7 @@ def solve_transient(
     if transient is None:
         raise InputError("transient: missing from the case; solve the steady film with tehl.solve")
     warm_up(coupled=problem.is_coupled)
-    run = Run(problem, options, transient, monitor)
+    run = Run(problem, options, transient, monitor, until=until)
     if resume is not None:
         run.restore(resume)
     return run.result(run.advance(monitor, keep))
@@ -98,14 +101,17 @@ class Run:
         options: Options,
         transient: Transient,
         monitor: StepMonitor,
+        *,
+        until: float | None = None,
     ) -> None:
-        stated = "max_time" in options.model_fields_set
-        self.clock = Clock(options.max_time if stated else math.inf)
+        self.clock, stated = Clock(), "max_time" in options.model_fields_set
+        own = end_of_time(options) if stated else math.inf
+        self.until = own if until is None else until
         self.problem, self.transient = problem, transient
         self.scaled = scaled = ScaledProblem.of(problem)
         smooth = transient.start == "smooth"
         self._pose(finest_grid(scaled, planned(scaled, options)), smooth=smooth)  # fails early
-        attempt, self.start = _steady_start(problem, options, rough=not smooth, monitor=monitor)
+        attempt, self.start = self._steady_start(options, monitor)
         self.scaled = attempt.run.hierarchy.scaled  # it knows the flooded film
         self._pose(attempt.run.finest.grid, smooth=smooth)
         settings: Sequence[Relaxation] = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
@@ -131,6 +137,35 @@ class Run:
         check_peaks(courses_of(self.problem), self.seconds)
         self.kept = kept_steps(transient, self.steps, self.seconds)
 
+    def _steady_start(self, options: Options, monitor: StepMonitor) -> tuple[Attempt, Solution]:
+        """Solve for the steady film at time zero, with the load of that time, rough or smooth.
+
+        Heat and film may alternate by less than the mesh errs, and a tight solve may take all its
+        time on a grid that is too coarse: then the accuracy of the options is enough. A film that
+        no accuracy changes is not solved again.
+        """
+        tight = options.model_copy(
+            update={
+                "accuracy": "tight",
+                "tolerance": min(options.tolerance, START_TOLERANCE),
+            }
+        )
+        solve = partial(
+            try_strategies, self.problem, monitor=monitor, rough=self.transient.start != "smooth"
+        )
+        now, end = working_time(), min(end_of_time(options), self.until)
+        attempt, result = solve(tight, until=now + TIGHT_TIME * (end - now))
+        status = result.status
+        again = not (attempt.reached or attempt.is_final) or status.cause == "error_not_reached"
+        if not status.converged and again and options.accuracy != "tight":
+            attempt, result = solve(options, until=end)
+        result = result.but(options=options)
+        if not result.status.converged:
+            message = f"The steady film at time zero did not converge: {result.status.message}"
+            status = replace(result.status, message=message)
+            raise ConvergenceError(message, result.but(status=status))
+        return attempt, result
+
     @property
     def level(self) -> Level:
         """The finest level."""
@@ -150,7 +185,7 @@ class Run:
         """
         for step in range(len(self.record.rows), self.steps + 1):
             time_now = step * self.seconds
-            if self.clock.seconds > self.clock.limit:
+            if working_time() > self.until:
                 return self._time_over(time_now - self.seconds)
             heights = self.heights.at(time_now, self.schedule.places(step))
             try:
@@ -298,8 +333,8 @@ class Run:
             kind="not_converged",
             cause=TIME_OVER,
             message=(
-                f"numerics.max_time = {self.clock.limit:g} s is over at {seconds:.4g} of "
-                f"{self.steps * self.seconds:.4g} s of the run. The steps until then are kept."
+                f"numerics.max_time = {self.start.options.max_time:g} s is over at {seconds:.4g} "
+                f"of {self.steps * self.seconds:.4g} s of the run. The steps until then are kept."
             ),
             hint=Hint(
                 "Take a longer numerics.max_time, a larger transient.stride, fewer nodes "
@@ -358,30 +393,3 @@ class Run:
 
 def _shapes(fields: dict[str, Array]) -> dict[str, tuple[tuple[int, ...], np.dtype]]:
     return {name: (field.shape, field.dtype) for name, field in fields.items()}
-
-
-def _steady_start(
-    problem: ContactProblem, options: Options, *, rough: bool, monitor: StepMonitor
-) -> tuple[Attempt, Solution]:
-    """Solve for the steady film at time zero, with the load of that time, rough or smooth.
-
-    Heat and film may alternate by less than the mesh errs, and a tight solve may take all its time
-    on a grid that is too coarse: then the accuracy of the options is enough.
-    """
-    tight = options.model_copy(
-        update={
-            "accuracy": "tight",
-            "tolerance": min(options.tolerance, START_TOLERANCE),
-        }
-    )
-    now, end = time.perf_counter(), end_of_time(options)
-    until = now + TIGHT_TIME * (end - now)
-    attempt, result = try_strategies(problem, tight, monitor=monitor, rough=rough, until=until)
-    if not result.status.converged and options.accuracy != "tight":
-        attempt, result = try_strategies(problem, options, monitor=monitor, rough=rough, until=end)
-    result = result.but(options=options)
-    if not result.status.converged:
-        message = f"The steady film at time zero did not converge: {result.status.message}"
-        status = replace(result.status, message=message)
-        raise ConvergenceError(message, result.but(status=status))
-    return attempt, result
