@@ -360,6 +360,16 @@ def test_the_film_is_thin_where_a_roller_leaves_the_raceway():
     assert fine.errors.minimum < 0.025
 
 
+def test_lines_crowd_at_the_steep_end_of_the_loaded_part():
+    """On longer cells, which crowd at the end of the roller, the minimum is 0.0030."""
+    found = tehl.solve(
+        roller(profile={"shape": "lundberg"}), Options(points=(513, 257), wedge_order=3)
+    )
+    # 513 x 513 nodes with cells half as long give 0.00220
+    assert found.film_scaled.minimum == pytest.approx(0.00221, rel=0.02)
+    assert found.errors.minimum > 0.02
+
+
 def test_lines_stay_where_the_load_reaches_the_ends_of_a_roller():
     grid = Grid(
         nx=65,

@@ -27,7 +27,7 @@ LEAST_LINES, LEAST_CROWDED = 12, 24
 16 intervals, seven contacts of bearings take as many cycles. Where lines crowd at the ends of a
 roller: with half as many the ends of lundberg profiles lack lines, and the cycles end at a residual
 of 1e-5. Only beside columns that halve twice or more: bars compare three grids."""
-END_CELL, LEAST_PART = 1.4, 0.02
+END_CELL, LEAST_PART = 1.4, 0.002
 """Length of the cells where a roller ends or leaves the raceway over their width: with 1 single
 nodes there alternate from cycle to cycle, with 2 the thinnest film of a logarithmic profile errs
 three times as much. Least part of the mean distance of lines that it may be."""
