@@ -289,7 +289,7 @@ class FilmState:
             still = self.view("conductivity") / self.view("h")
             moving = FLOWING * self.model.terms.peclet
             conductance = STIFFER * np.sqrt(still**2 + moving)
-            self.solids.update(conductance, self.walls, self.fluxes)
+            self.solids.update(conductance, self.walls, self.fluxes, exactly=self.thorough)
 
     def _set_terms(self, terms: Terms) -> None:
         self.model = self.model._replace(terms=terms)
