@@ -272,8 +272,8 @@ def test_a_line_stays_one_row_with_a_wedge_of_another_order(monkeypatch):
 
 
 def test_scarce_oil_on_few_lines_is_tried_on_more_before_a_wedge_of_second_order() -> None:
-    """A heated outer ring whose film does not rest on a quarter of the lines (M = 4700)."""
-    case = machines.contact(17, 49)[2]
+    """A gear tooth whose film does not rest on a quarter of the lines (M = 13,700)."""
+    case = machines.contact(17, 207)[2]
     found = steady.solve(case, Options())
     few, many = (max(r.points[1] for r in rows) for rows in (found.history[:9], found.history))
     ny, nx = found.scaled.film.shape

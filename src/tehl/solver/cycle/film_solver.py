@@ -316,10 +316,10 @@ class FilmSolver(GridIteration):
             accepted, self.traces[-1].diverged = False, True
         else:
             accepted = self._is_acceptable(self.traces[-1])
-        if accepted:
-            self._keep(levels)
-        else:
+        if not accepted:
             self._discard(levels)
+        elif film_converged(self.traces[-1], self._coarser_trace()):
+            self._keep(levels)  # not one that oscillates
         return accepted
 
     def _discard(self, levels: Sequence[Level]) -> None:
