@@ -104,6 +104,18 @@ def test_a_share_that_oscillates_has_not_converged_where_it_hardly_changes_once(
     assert touching_converged(fine, coarse) is ends
 
 
+@pytest.mark.parametrize(("swing", "ends"), [(0.004, True), (0.02, False)])
+def test_a_share_that_swings_about_its_limit_errs_by_its_swing_at_most(
+    swing: float, ends: bool
+) -> None:
+    """Single nodes that come and go leave it as it is: changes that alternate do not add up."""
+    coarse, fine = GridTrace(), GridTrace()
+    coarse.touching.values = [0.19]
+    fine.touching.values = [0.04 + swing * (-1) ** cycle * (1 - 0.01 * cycle) for cycle in range(9)]
+    assert fine.touching.iteration_error() > 4.0 * swing
+    assert touching_converged(fine, coarse) is ends
+
+
 @pytest.mark.parametrize(("coarse", "bar"), [(0.010, 0.35), (0.0, 0.70), (-0.020, 2.0)])
 def test_the_bar_of_a_rough_minimum_far_from_its_limit_is_its_whole_change(
     coarse: float, bar: float

@@ -127,6 +127,16 @@ class Trace:
             last = max(abs(last), abs(before)) if self.alternates else last
         return abs(last) * rate / (1.0 - rate)
 
+    def swing(self) -> float:
+        """Estimate the same of a number that swings about its limit: by the larger change at most.
+
+        The limit of changes that alternate lies between the last values.
+        """
+        error, last = self.iteration_error(), self.values[-3:]
+        if len(last) < 3 or not (last[2] - last[1]) * (last[1] - last[0]) < 0.0:
+            return error
+        return min(error, max(abs(last[2] - last[1]), abs(last[1] - last[0])))
+
     def creep(self, cycles: int) -> float:
         """Estimate the same by changes over some ``cycles`` each; zero if they alternate."""
         if len(self.values) <= 2 * cycles:
@@ -344,9 +354,9 @@ def touching_converged(now: GridTrace, coarser: GridTrace) -> bool:
     shares, before = now.touching, coarser.touching.values[-1:]
     # second order: a third of the change from the coarser grid
     discretisation = abs(shares.values[-1] - before[0]) / 3.0 if before else 0.0
-    error = max(shares.iteration_error(), *map(shares.creep, SHARE_CYCLES))
+    error = max(shares.swing(), *map(shares.creep, SHARE_CYCLES))
     if len(shares.values) > LEAST_CYCLES:  # where it oscillates, a change may be small by chance
-        error = max(error, Trace(shares.values[:-1], shares.least_rate).iteration_error())
+        error = max(error, Trace(shares.values[:-1], shares.least_rate).swing())
     return error <= max(discretisation / 3.0, SHARE_ERROR)
 
 
