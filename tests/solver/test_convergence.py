@@ -31,6 +31,7 @@ from tehl.solver.judging.grid_errors import (
     PART_AT_SIDES,
     THIRD_CHANGE,
     THIRD_PART,
+    FilmTraits,
     error_estimate,
     extrapolated_bars,
 )
@@ -124,7 +125,7 @@ def test_the_bar_of_a_rough_minimum_far_from_its_limit_is_its_whole_change(
     traces = [GridTrace(), GridTrace()]
     for trace, minimum in zip(traces, (coarse, 0.020), strict=True):
         trace.note(0.1, minimum)
-    estimate = error_estimate(traces, 2, rough=True)
+    estimate = error_estimate(traces, FilmTraits(order=2, rough=True))
     assert estimate.discretisation_minimum == pytest.approx(bar)
     assert estimate.discretisation_central == 0.0
 
@@ -136,8 +137,8 @@ def test_two_grids_that_agree_by_chance_have_the_bar_of_their_mesh() -> None:
     for trace, (central, minimum) in zip(traces, films, strict=True):
         trace.note(central, minimum)
         trace.note(central, minimum)
-    assert error_estimate(traces, 3).discretisation_minimum < 0.002
-    estimate = error_estimate(traces, 3, least=0.03)
+    assert error_estimate(traces, FilmTraits(order=3)).discretisation_minimum < 0.002
+    estimate = error_estimate(traces, FilmTraits(order=3, least=0.03))
     assert estimate.discretisation_minimum == pytest.approx(LEAST_MINIMUM * 0.03)
     assert estimate.discretisation_central == pytest.approx(LEAST_CENTRAL * 0.03)
 
@@ -147,9 +148,9 @@ def test_an_isothermal_film_makes_no_bar_of_heated_ones() -> None:
     traces = [GridTrace(coupled=heated) for heated in (False, True, True)]
     for trace, film in zip(traces, (0.0924, 0.0719, 0.0721), strict=True):
         trace.note(film, film)
-    assert error_estimate(traces, 3).discretisation_central > 0.02
+    assert error_estimate(traces, FilmTraits(order=3)).discretisation_central > 0.02
     assert comparable(traces) == traces[1:]
-    assert error_estimate(comparable(traces), 3).discretisation_central < 0.002
+    assert error_estimate(comparable(traces), FilmTraits(order=3)).discretisation_central < 0.002
     traces[0].coupled = True
     assert comparable(traces) == traces
     traces[1].diverged = True
@@ -177,7 +178,7 @@ def test_a_film_of_third_order_has_little_more_than_the_bar_to_expect(
     for trace, film in zip(traces, (1.0 + change, 1.0), strict=True):
         trace.note(film, film)
         trace.note(film, film)
-    estimate = error_estimate(traces, 3, least=0.006, most=MOST_EXPECTED * 0.006)
+    estimate = error_estimate(traces, FilmTraits(order=3, least=0.006, most=MOST_EXPECTED * 0.006))
     assert estimate.discretisation_central == pytest.approx(bar)
     assert estimate.discretisation_minimum == pytest.approx(bar)
 
@@ -197,7 +198,7 @@ def test_a_film_that_grows_at_the_sides_is_extrapolated_from_two_grids(
         trace.measured = {"film_central": film, "film_minimum": film, "pressure_max": 1.0}
         trace.measured |= {"spike": 0.5, "excess": 0.01}
         trace.outputs = Mock()
-    found = error_estimate(traces, 3, extrapolate=True, thinnest="sides")
+    found = error_estimate(traces, FilmTraits(order=3, thinnest="sides"), extrapolate=True)
     assert found.extrapolated == (0.0 < growth < GROWTH_AT_SIDES)
     assert found.discretisation_minimum == pytest.approx(bar)
 
@@ -211,9 +212,10 @@ def test_a_central_film_of_scarce_oil_may_shrink_while_that_at_the_sides_grows()
         trace.measured = {"film_central": central, "film_minimum": minimum, "pressure_max": 1.0}
         trace.measured |= {"spike": 0.5, "excess": 0.01}
         trace.outputs = Mock()
-    assert not error_estimate(traces, 3, extrapolate=True, thinnest="sides").extrapolated
-    found = error_estimate(traces, 3, extrapolate=True, thinnest="sides", scarce=True)
-    alone = error_estimate(traces, 3, scarce=True)
+    at_sides = FilmTraits(order=3, thinnest="sides")
+    assert not error_estimate(traces, at_sides, extrapolate=True).extrapolated
+    found = error_estimate(traces, replace(at_sides, scarce=True), extrapolate=True)
+    alone = error_estimate(traces, FilmTraits(order=3, scarce=True))
     assert found.extrapolated
     assert found.discretisation_minimum == pytest.approx(PART_AT_SIDES * 0.020 / 0.980)
     added = found.discretisation_central - alone.discretisation_central
@@ -232,7 +234,8 @@ def test_a_minimum_at_the_exit_is_not_extrapolated_by_an_order_shown_by_chance()
     off = 7.665 + (7.665 - 7.454) / 3.0 - 7.653  # of the extrapolated film
     assert extrapolated_bars(traces, 3, 0.005)[COMBINED[1]] < off / 7.653
     most = MOST_EXPECTED * 0.005
-    found = error_estimate(traces, 3, least=0.005, most=most, extrapolate=True, thinnest="exit")
+    traits = FilmTraits(order=3, least=0.005, most=most, thinnest="exit")
+    found = error_estimate(traces, traits, extrapolate=True)
     assert not found.extrapolated
     assert found.discretisation_minimum > 7.665 / 7.653 - 1.0
 
@@ -255,9 +258,9 @@ def test_films_of_scarce_oil_that_agree_need_no_bar_to_expect(
     for trace, film in zip(traces, films, strict=True):
         trace.note(film, film)
         trace.note(film, film)
-    found = error_estimate(traces, 3, least=0.02, scarce=True)
+    found = error_estimate(traces, FilmTraits(order=3, least=0.02, scarce=True))
     assert found.discretisation_minimum == pytest.approx(bar)
-    flooded = error_estimate(traces, 3, least=0.02)
+    flooded = error_estimate(traces, FilmTraits(order=3, least=0.02))
     assert flooded.discretisation_minimum == pytest.approx(LEAST_MINIMUM * 0.02)
 
 
@@ -327,7 +330,8 @@ def spiky(rows: dict[str, tuple[float, float]]) -> list[GridTrace]:
 
 def test_a_stress_that_follows_an_unresolved_spike_may_change_by_several_times_its_change() -> None:
     """A gear tooth (M = 137): 8.599 and 8.478 per mille, 8.359 and 8.228 on finer grids."""
-    found = error_estimate(spiky({"traction_mid_film": (-8.599e-3, -8.478e-3)}), 2)
+    measured = {"traction_mid_film": (-8.599e-3, -8.478e-3)}
+    found = error_estimate(spiky(measured), FilmTraits(order=2))
     assert not found.spike_resolved
     assert 0.04 < found.bars["traction_mid_film"] < 0.08
 
@@ -339,7 +343,7 @@ def test_oil_hotter_than_the_surfaces_may_be_hotter_still_in_an_unresolved_spike
     """A gear tooth (M = 201): 4.07 K on two grids, 4.40 and 4.76 K on finer ones."""
     rises = {"film_rise_max": (4.069, 4.067), "surface_1_rise_max": (1.745, 1.743)}
     friction = {"traction_mid_film": (-8.6e-3, -8.6e-3)} if sliding else {}
-    found = error_estimate(spiky(rises | friction), 2, sliding=sliding)
+    found = error_estimate(spiky(rises | friction), FilmTraits(order=2, sliding=sliding))
     assert least <= found.bars["film_rise_max"] <= most
 
 

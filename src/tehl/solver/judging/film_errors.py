@@ -15,7 +15,12 @@ from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.convergence import GridTrace
 from tehl.solver.judging.film_summary import central_value
-from tehl.solver.judging.grid_errors import Thinnest, error_estimate, single_grid_estimate
+from tehl.solver.judging.grid_errors import (
+    FilmTraits,
+    Thinnest,
+    error_estimate,
+    single_grid_estimate,
+)
 from tehl.solver.judging.measures import (
     is_pressed_at_end,
     is_thinnest_at_end,
@@ -105,52 +110,40 @@ def _by_grids(
     scaled, order = hierarchy.scaled, hierarchy.options.order
     if len(traces) < 2 or not traces[-1].reports or traces[-1].diverged:
         return None
-    edges, domain, newtonian = level.grid.domain, 0.0, not scaled.problem.is_coupled
-    sliding = math.hypot(scaled.moment.sliding, scaled.problem.motion.sliding_ratio[1])
+    edges, domain = level.grid.domain, 0.0
     if level.equations.far_field is not None:
         domain = far_field_error(scaled.entering, edges) + entry_error(scaled, edges)
         domain += spin_error(scaled)
-    goes_on = scaled.groups.shape.goes_on
-    if not roughness.is_rough:
-        compared = comparable(traces, goes_on=goes_on)
-        if len(compared) < 2:
-            return None
-        expected = _expected_bar(hierarchy, level)
-        is_scarce = scaled.problem.supply is not None
-        is_limited = not is_scarce or scaled.groups.ellipticity >= LIMITED_RATIO
-        is_limited &= scaled.problem.thermal is None or scaled.groups.L <= HOT_SPEED
-        return error_estimate(
-            compared,
-            order,
-            domain,
-            newtonian=newtonian,
-            sliding=sliding,
-            least=expected,
-            most=MOST_EXPECTED * expected if expected and is_limited else math.inf,
-            extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == compared[-2:],
-            kind=scaled.problem.contact.type,
-            thinnest=_thinnest(level),
-            scarce=is_scarce,
-        )
+    expected = _expected_bar(hierarchy, level)
+    traits = FilmTraits(
+        order=order,
+        kind=scaled.problem.contact.type,
+        rough=roughness.is_rough,
+        newtonian=not scaled.problem.is_coupled,
+        sliding=math.hypot(scaled.moment.sliding, scaled.problem.motion.sliding_ratio[1]),
+        least=expected,
+    )
     # grids that resolve the same heights
-    compared = comparable(traces[roughness.first_comparable :], goes_on=goes_on)
-    if len(compared) < 2:
+    first = roughness.first_comparable if roughness.is_rough else 0
+    compared = comparable(traces[first:], goes_on=scaled.groups.shape.goes_on)
+    if len(compared) < 2 and roughness.is_rough:
         points, amplitude = roughness.points, roughness.amplitude
         return single_grid_estimate(traces[-1], level.grid.dx, points, amplitude, domain)
-    return error_estimate(
-        compared,
-        order,
-        domain,
-        rough=True,
-        newtonian=newtonian,
-        sliding=sliding,
-        least=_expected_bar(hierarchy, level),
-        kind=scaled.problem.contact.type,
-    )
+    if len(compared) < 2:
+        return None
+    if roughness.is_rough:
+        return error_estimate(compared, traits, domain)
+    is_scarce = scaled.problem.supply is not None
+    is_limited = not is_scarce or scaled.groups.ellipticity >= LIMITED_RATIO
+    is_limited &= scaled.problem.thermal is None or scaled.groups.L <= HOT_SPEED
+    most = MOST_EXPECTED * expected if expected and is_limited else math.inf
+    traits = replace(traits, most=most, thinnest=_thinnest(level), scarce=is_scarce)
+    combined = bool(hierarchy.options.extrapolate) and traces[-2:] == compared[-2:]
+    return error_estimate(compared, traits, domain, extrapolate=combined)
 
 
 def _thinnest(level: Level) -> Thinnest:
-    """Return where a heavily loaded film is thinnest, as `error_estimate` asks."""
+    """Return where a heavily loaded film is thinnest, as `FilmTraits` has it."""
     groups, at_side = level.equations.groups, is_thinnest_at_side(level)
     is_wide = groups.ellipticity < LEAST_SLENDER
     if is_wide and at_side and groups.M > LOAD_AT_SIDES:

@@ -6,7 +6,7 @@ difference of two grids (docs/theory/numerics.md on stopping and errors).
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, Literal
 
@@ -83,20 +83,37 @@ SHARED = 0.25
 coarse grids may agree on a thin minimum by chance."""
 
 
-def error_estimate(  # noqa: PLR0913 (one estimate)
+@dataclass(frozen=True, kw_only=True, slots=True)
+class FilmTraits:
+    """What of a film, beside the grids it is solved on, its error bars depend on."""
+
+    order: int = 2
+    """Order of the wedge, 1 to 3."""
+    kind: str = "point"
+    """Type of the contact: the minimum of a line follows the spike, that of a roller its ends."""
+    thinnest: Thinnest = "anywhere"
+    """Where a heavily loaded film is: at sides of wide contacts, at the exit of slender ones."""
+    rough: bool = False
+    """Whether the grids carry heights of rough surfaces."""
+    scarce: bool = False
+    """Whether oil is scarce, so that three grids that agree need no bar to expect."""
+    newtonian: bool = False
+    """Whether the film is isothermal and Newtonian: then its traction has no bar where the spike is
+    not resolved."""
+    sliding: float = 0.0
+    """Slide-to-roll ratio, not negative [-]."""
+    least: float = 0.0
+    """Bar that the contact and the mesh width lead to expect: less than a part of it is chance."""
+    most: float = math.inf
+    """The largest bar to expect, unless a part of the last change is larger."""
+
+
+def error_estimate(
     traces: list[GridTrace],
-    order: int,
+    traits: FilmTraits,
     domain: float = 0.0,
     *,
-    rough: bool = False,
-    newtonian: bool = False,
-    sliding: float = 0.0,
-    least: float = 0.0,
-    most: float = math.inf,
     extrapolate: bool = False,
-    kind: str = "point",
-    thinnest: Thinnest = "anywhere",
-    scarce: bool = False,
 ) -> ErrorEstimate:
     """Estimate the relative errors of the film on the last of two or more grids.
 
@@ -104,30 +121,15 @@ def error_estimate(  # noqa: PLR0913 (one estimate)
     ----------
     traces : list of GridTrace
         Grids halved each time, coarsest first.
-    order : {1, 2}
-        Order of the wedge.
+    traits : FilmTraits
+        What is known of the film.
     domain : float
         Relative error from the edges of the domain [-].
-    rough : bool
-        Whether the grids carry heights of rough surfaces.
-    newtonian : bool
-        Whether the film is isothermal and Newtonian: then its traction has no bar where the spike
-        is not resolved.
-    sliding : float
-        Slide-to-roll ratio, not negative [-].
-    least : float
-        Bar that the contact and the mesh width lead to expect: less than a part of it is chance.
-    most : float
-        The largest bar to expect, unless a part of the last change is larger.
     extrapolate : bool
         Whether the last two grids are combined if they show the order.
-    kind : {"point", "line", "roller"}
-        Type of the contact: the minimum of a line follows the spike, that of a roller its ends.
-    thinnest : {"anywhere", "sides", "exit"}
-        Where a heavily loaded film is: at the sides of wide contacts, at the exit of slender ones.
-    scarce : bool
-        Whether oil is scarce, so that three grids that agree need no bar to expect.
     """
+    order, kind, least, scarce = traits.order, traits.kind, traits.least, traits.scarce
+    rough, thinnest = traits.rough, traits.thinnest
     bars: list[float] = []
     changes: list[float] = []
     otherwise = ROUGH_PART if rough else THIRD_PART if order > 2 else 1.0
@@ -148,7 +150,7 @@ def error_estimate(  # noqa: PLR0913 (one estimate)
             bar = max(bar, changes[-1])
         floor = least * (LEAST_MINIMUM if name == "minimum" else LEAST_CENTRAL)
         bar = max(bar, SHARED * changes[0]) / film
-        bar = min(bar, _largest_bar(changes[-1] / film, most))
+        bar = min(bar, _largest_bar(changes[-1] / film, traits.most))
         bars.append(max(bar, min(floor, _agreed(values)) if scarce else floor))
     estimate = _estimate(traces[-1], domain, *bars)
     named = dict(zip(COMBINED, bars, strict=True))
@@ -162,8 +164,10 @@ def error_estimate(  # noqa: PLR0913 (one estimate)
     if not traces[-1].measured:  # its cycles have not ended
         return estimate
     part = ROUGH_PART if rough else 1.0
-    found = further_errors(traces, part, domain, estimate.central, sliding)
-    resolved = limit_bars(found, traces, estimate.central, newtonian=newtonian, sliding=sliding)
+    found = further_errors(traces, part, domain, estimate.central, traits.sliding)
+    resolved = limit_bars(
+        found, traces, estimate.central, newtonian=traits.newtonian, sliding=traits.sliding
+    )
     return replace(estimate, bars=found, spike_resolved=resolved)
 
 
@@ -206,7 +210,7 @@ def extrapolated_bars(
         the equations err more: the changes must show it, or be negligible. Where they are, the bar
         stays that without extrapolation.
     least : float
-        As for `error_estimate`; it is of second order.
+        As of `FilmTraits`; it is of second order.
     doubtful : bool
         Whether all that is added to the minimum may be its error: thin films of third order at the
         exit show another by chance; two (M = 14,100 and 17,100) are off by 0.9 %, 0.2 % without.
