@@ -23,11 +23,19 @@ TIMED = 513
 
 
 class Clock:
-    """Measures the cost from now on, in addition to that of earlier parts of a resumed run."""
+    """Measures the cost from now on, in addition to that of earlier parts of a resumed run.
 
-    def __init__(self) -> None:
-        self.before = NO_COST
+    The time of this part is over at ``until``, on the clock of `working_time` [s].
+    """
+
+    def __init__(self, until: float = math.inf) -> None:
+        self.before, self.until = NO_COST, until
         self._wall, self._cpu = time.perf_counter(), time.process_time()
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the time of this part is over."""
+        return working_time() > self.until
 
     def cost(self) -> Cost:
         """Return the cost so far."""

@@ -104,9 +104,9 @@ class Run:
         *,
         until: float | None = None,
     ) -> None:
-        self.clock, stated = Clock(), "max_time" in options.model_fields_set
+        stated = "max_time" in options.model_fields_set
         own = end_of_time(options) if stated else math.inf
-        self.until = own if until is None else until
+        self.clock = Clock(own if until is None else until)
         self.problem, self.transient = problem, transient
         self.scaled = scaled = ScaledProblem.of(problem)
         smooth = transient.start == "smooth"
@@ -153,7 +153,7 @@ class Run:
         solve = partial(
             try_strategies, self.problem, monitor=monitor, rough=self.transient.start != "smooth"
         )
-        now, end = working_time(), min(end_of_time(options), self.until)
+        now, end = working_time(), min(end_of_time(options), self.clock.until)
         attempt, result = solve(tight, until=now + TIGHT_TIME * (end - now))
         status = result.status
         again = not (attempt.reached or attempt.is_final) or status.cause == "error_not_reached"
@@ -185,7 +185,7 @@ class Run:
         """
         for step in range(len(self.record.rows), self.steps + 1):
             time_now = step * self.seconds
-            if working_time() > self.until:
+            if self.clock.is_over:
                 return self._time_over(time_now - self.seconds)
             heights = self.heights.at(time_now, self.schedule.places(step))
             try:
