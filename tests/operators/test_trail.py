@@ -54,6 +54,22 @@ def test_a_flux_that_grows_in_time_reaches_a_point_with_the_delay_of_the_way(lag
     np.testing.assert_allclose(rise, np.repeat(exact, ROWS, 1), rtol=0, atol=5e-4)
 
 
+@pytest.mark.parametrize("moved", [0.6, 1.0, 2.3])
+def test_a_surface_of_varying_speed_begins_with_the_steady_rise(moved):
+    """A step that moves it as before changes nothing, and the rise is that of the march along x."""
+    x = np.linspace(0.0, 1.0, NODES)
+    flux = np.repeat(np.sin(np.pi * x)[:, None] ** 4, ROWS, axis=1)
+    trail = VaryingTrail(flux, moved * x[1], moved, (30, 12))
+    first = trail.past.copy()
+    for _ in range(3):
+        trail.move(moved)
+        np.testing.assert_allclose(trail.update(flux), first, rtol=0, atol=1e-12)
+        trail.advance()
+    steady = Trail(flux, x[1], 1.0)
+    rise = steady.past + steady.near * flux
+    np.testing.assert_allclose(first + trail.near * flux, rise, rtol=0, atol=2e-3 * rise.max())
+
+
 def test_heat_moves_with_a_surface_forwards_and_backwards():
     """Exponentials of a row of nodes by plain numpy, forwards, at rest and backwards."""
     rng = np.random.default_rng(1)

@@ -12,6 +12,8 @@ order.
 import math
 
 import numpy as np
+from scipy.sparse import csc_array, eye_array
+from scipy.sparse.linalg import splu
 
 from tehl.base.typing import Array
 from tehl.kernels.energy import trail
@@ -102,9 +104,35 @@ class VaryingTrail:
         self.modes = np.zeros((2, len(weights.decay), *wide.shape))
         self.line, self.wide = np.zeros((1, wide.shape[1])), np.zeros(wide.shape)
         self.past, self.present = np.zeros_like(flux), flux.T
-        for _ in range(past if flux.any() else 0):
-            self.move(nodes)
-            self.advance()
+        if flux.any():
+            self._begin(wide, nodes)
+
+    def _begin(self, flux: Array, nodes: float) -> None:
+        """Begin with the steady state, in which a step changes nothing.
+
+        With S the interpolation of a field where it was a step ago, the exponentials are the
+        solution of ``(I - decay S) E = S (older S q + newer q)``, a band along each line. To
+        step there takes thirty times as long: 8 s of a half domain of 641 x 641 nodes.
+
+        Parameters
+        ----------
+        flux : (ny, nx) array
+            Steady flux, also beyond the edges.
+        nodes : float
+            Mesh widths that the surface moves per step.
+        """
+        moved = _interpolation(flux.shape[1], nodes)
+        before = (moved @ flux.T).T
+        self.fluxes[[0, 2], 0] = before
+        self.wide[:] = self.weights.next_ * before
+        identity = eye_array(flux.shape[1], format="csc")
+        rates = zip(self.weights.decay, self.weights.older, self.weights.newer, strict=True)
+        for number, (decay, older, newer) in enumerate(rates):
+            taken = moved @ (older * before + newer * flux).T
+            solution = splu(csc_array(identity - decay * moved)).solve(taken).T
+            self.modes[:, number] = solution
+            self.wide += solution
+        self.past = self.wide[:, self.inside].T
 
     def move(self, nodes: float) -> None:
         """Begin a step in which the surface moves by ``nodes`` mesh widths."""
@@ -140,6 +168,25 @@ def lag_of(steps: float, first: int) -> trail.Lag:
     """
     s = steps - first
     return trail.Lag(first, 0.5 * (s - 1.0) * (s - 2.0), s * (2.0 - s), 0.5 * s * (s - 1.0))
+
+
+def _interpolation(nx: int, nodes: float) -> csc_array:
+    """Return the interpolation along x of a field where it was a step ago, (nx, nx).
+
+    Upstream of the nodes nothing has heated the surface, downstream it is as warm as at the edge.
+
+    Parameters
+    ----------
+    nx : int
+        Nodes along x.
+    nodes : float
+        Mesh widths that the surface moves per step.
+    """
+    shift, rows = shift_by(nodes), np.repeat(np.arange(nx), 4)
+    columns = (np.arange(nx)[:, None] + shift.first + shift.step * np.arange(4)).ravel()
+    upstream = columns < 0 if nodes > 0.0 else columns >= nx
+    weights = np.where(upstream, 0.0, np.tile(shift.weights, nx))
+    return csc_array((weights, (rows, np.clip(columns, 0, nx - 1))), shape=(nx, nx))
 
 
 def shift_by(nodes: float) -> trail.Shift:
