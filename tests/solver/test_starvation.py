@@ -419,6 +419,7 @@ def test_a_profile_may_be_a_csv_file(text, tmp_path):
         ("a,b\n1,2", "two columns"),
         ("y [mm], layer\n1,2", "without both units"),
         ("", "two columns"),
+        ("-1e-3,1e-7\n0,nan", "has the line 0, nan; both numbers must be finite"),
     ],
 )
 def test_a_profile_that_cannot_be_read_is_one_sentence(text, fault, tmp_path):

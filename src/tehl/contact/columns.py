@@ -1,5 +1,6 @@
 """Two columns of a CSV file, with their units if the header has them."""
 
+import math
 import re
 from pathlib import Path
 
@@ -24,7 +25,7 @@ def read_columns(
     Raises
     ------
     ValueError
-        If it is not a file of two columns of numbers.
+        If it is not a file of two columns of finite numbers.
     """
     wrong = f"is not a CSV file of two columns of numbers, {names[0]} and {names[1]}"
     try:
@@ -43,4 +44,7 @@ def read_columns(
         raise ValueError(wrong) from None
     if not pairs or any(len(pair) != len(names) for pair in pairs):
         raise ValueError(wrong)
+    for pair in pairs:
+        if not all(map(math.isfinite, pair)):
+            raise ValueError(f"has the line {pair[0]:g}, {pair[1]:g}; both numbers must be finite")
     return [(first, second) for first, second in pairs], units
