@@ -2,6 +2,7 @@
 
 import tomllib
 from dataclasses import replace
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from tehl.cli.text import as_text
 from tehl.contact.options import Domain, Options
 from tehl.estimate.domain import domain_of
 from tehl.estimate.grid import Grid, closest
+from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.estimate.third_order import third_order_bar
@@ -20,6 +22,7 @@ from tehl.operators.dry import at_loaded_ends, dry_pressure
 from tehl.plots import pressure_map
 from tehl.plots.frame import pressure_top
 from tehl.solver.judging.film_summary import film_summary
+from tehl.solver.judging.measures import SAMPLED, side_reach
 
 STEEL = {"material": "steel"}
 LOGARITHMIC = {"shape": "logarithmic"}
@@ -368,6 +371,21 @@ def test_lines_crowd_at_the_steep_end_of_the_loaded_part():
     # 513 x 513 nodes with cells half as long give 0.00220
     assert found.film_scaled.minimum == pytest.approx(0.00221, rel=0.02)
     assert found.errors.minimum > 0.02
+
+
+@pytest.mark.parametrize("part", [0.0, 0.25, 0.5, 0.75])
+def test_a_minimum_beside_a_steep_end_is_within_reach_of_lines(part):
+    """A film as of a lundberg profile: it falls to a kink between two lines, and rises at once."""
+    scaled = ScaledProblem.of(roller(profile={"shape": "lundberg"}))
+    plan = Options(points=(257, 129), wedge_order=3)
+    grid = at_loaded_ends(finest_grid(scaled, plan), scaled.groups)
+    kappa, row = scaled.groups.ellipticity, int(np.abs(grid.y - grid.edges[1]).argmin())
+    kink = grid.y[row] + part * (grid.y[row + 1] - grid.y[row])
+    inside, outside = kappa * np.maximum(kink - grid.y, 0.0), kappa * np.maximum(grid.y - kink, 0.0)
+    film = (0.002 + 0.06 * inside + outside**1.5)[:, None] + 0.05 * (grid.x - 0.1) ** 2
+    found = film_summary(grid, film).minimum
+    reach = side_reach(Mock(grid=grid, film=Mock(h=film))) / SAMPLED
+    assert (1.0 - reach) * found < 1.001 * 0.002 < 1.06 * found
 
 
 def test_lines_stay_where_the_load_reaches_the_ends_of_a_roller():
