@@ -390,3 +390,20 @@ def test_oil_that_does_not_fill_the_boundary_film_carries_nothing(kind: str):
     assert result.film_scaled.central == pytest.approx(film, rel=1e-9)
     assert result.errors.supply == 0.0
     assert "load" in as_text(result)
+
+
+def test_a_film_that_contact_hides_on_coarse_grids_has_an_error_bar_that_holds():
+    """With a boundary film of 0.8 times that of the oil 65 and 129 nodes have it everywhere."""
+    smooth = moes_contact(500.0, 8.0)
+    film = expected_central_film(ScaledProblem.of(smooth).groups)
+    hidden, fine = (
+        solve(through_film(smooth, 0.8 * film), Options(points=points)) for points in (129, 257)
+    )
+    assert hidden.film_scaled.central == pytest.approx(0.8 * film)
+    assert fine.film_scaled.central > 1.05 * hidden.film_scaled.central
+    for name in ("central", "minimum"):
+        value, true = (getattr(one.film_scaled, name) for one in (hidden, fine))
+        assert value == pytest.approx(true, rel=getattr(hidden.errors, name))
+    # nothing hides where hardly any oil comes
+    dry = solve(through_film(smooth, 2.0 * film), Options(points=65))
+    assert dry.errors.central < 0.01
