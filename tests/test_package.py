@@ -6,6 +6,7 @@ import sys
 import pytest
 
 import tehl
+from tests.cases import moes_problem
 
 LIGHT = ["ContactProblem", "Domain", "InputError", "Options", "Solid", "read_case_and_options"]
 
@@ -83,3 +84,14 @@ def test_the_programs_that_tests_start_can_be_interrupted():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "True"
+
+
+@pytest.mark.parametrize(
+    "name", ["solve", "certify", "solve_passes", "solve_transient", "certify_transient"]
+)
+def test_a_solver_names_an_argument_that_is_not_a_case_or_options(name):
+    solver = getattr(tehl, name)
+    with pytest.raises(tehl.InputError, match=r"not str; tehl\.read_case reads one"):
+        solver("case.toml")
+    with pytest.raises(tehl.InputError, match=r"options: must be tehl\.Options, not dict"):
+        solver(moes_problem(20.0, 10.0), {"error": 0.01})
