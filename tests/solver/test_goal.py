@@ -356,6 +356,10 @@ def test_a_bar_that_hardly_exceeds_the_error_gets_a_grid_between(
     options = settled(scaled.problem, Options())
     level = with_minimum_at(0.1, finest_grid(scaled, options.on_points(129, 129)))
     assert Goal(scaled, options).other_nodes(level, errors(central, minimum)) == nodes
+    starved = scaled.problem.model_copy(update={"supply": Supply(ratio=0.9)})
+    if central > options.target:  # else more lines
+        goal = Goal(ScaledProblem.of(starved), options)
+        assert goal.other_nodes(level, errors(central, minimum)) == nodes
 
 
 def test_another_grid_fits_beside_the_one_that_is_kept() -> None:

@@ -225,7 +225,7 @@ class Goal:
         grid, target = level.grid, self.target
         if errors is None or not self.options.extrapolate:
             return None
-        if self.of_central or self.scaled.problem.supply is not None:  # fewer grids converge
+        if self.of_central:
             return None
         pairs = [(errors.central, errors.discretisation_central)]
         if errors.minimum_has_limit:
