@@ -160,6 +160,7 @@ def start_pressure(grid: Grid, groups: Groups) -> Array:
     return found * (groups.shape.load / Load(grid).integral(found))
 
 
+@lru_cache(maxsize=8)
 def at_loaded_ends(grid: Grid, groups: Groups) -> Grid:
     """Return a grid whose lines crowd where the loaded part of the roller ends, not where it does.
 
