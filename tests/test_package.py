@@ -95,3 +95,8 @@ def test_a_solver_names_an_argument_that_is_not_a_case_or_options(name):
         solver("case.toml")
     with pytest.raises(tehl.InputError, match=r"options: must be tehl\.Options, not dict"):
         solver(moes_problem(20.0, 10.0), {"error": 0.01})
+
+
+def test_a_study_names_an_argument_that_is_not_a_case():
+    with pytest.raises(tehl.InputError, match=r"not str; tehl\.read_case reads one"):
+        tehl.study("case.toml", {"contact.load": ["20 N"]})

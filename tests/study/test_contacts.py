@@ -241,6 +241,8 @@ def test_a_frame_is_solved_from_python(template):
     # an empty cell is the load of the template, which is the same
     assert found.loc[10, "minimum film [nm]"] == found.loc[11, "minimum film [nm]"]
     assert found.loc[10, "Hertz pressure [GPa]"] > 0
+    with pytest.raises(InputError, match=r"must be a pandas\.DataFrame, not str"):
+        tehl.solve_contacts("list.csv", template)
     same = tehl.solve_contacts(frame, read_case(template))
     assert same.loc[10, "status"] in ("converged", "not_converged")
 

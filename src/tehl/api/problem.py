@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from tehl.base.errors import InputError
 from tehl.base.lazy import lazy
 from tehl.contact import problem as plain
 from tehl.contact.options import Options
@@ -85,3 +86,24 @@ def case_from_tables(
     """
     problem, options = case.case_from_tables(tables, folder)
     return ContactProblem.of(problem), options
+
+
+def check_call(problem: object, options: object = None) -> None:
+    """Check that a function got a case and options, not the name of a file or a table.
+
+    Parameters
+    ----------
+    problem, options : object
+        What a user passed to a solver or a study; None are the default options.
+
+    Raises
+    ------
+    InputError
+        If they are something else.
+    """
+    if not isinstance(problem, plain.ContactProblem):
+        kind = type(problem).__name__
+        raise InputError(f"problem: must be a ContactProblem, not {kind}; tehl.read_case reads one")
+    if not isinstance(options, Options | None):
+        kind = type(options).__name__
+        raise InputError(f"options: must be tehl.Options, not {kind}: Options(error=0.01)")

@@ -6,11 +6,9 @@ from inspect import signature
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from tehl import solver
+from tehl.api.problem import check_call
 from tehl.api.results import Result, TransientResult, failures_with_results
-from tehl.base.errors import InputError
 from tehl.base.lazy import lazy
-from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
 from tehl.solver import with_work
@@ -38,7 +36,8 @@ def _giving(result_of: Callable[[Plain], Whole], solve: Callable[P, Plain]) -> C
     """Return a solver whose solutions, those of failures included, are results."""
 
     def solved(*args: P.args, **kwargs: P.kwargs) -> Whole:
-        _check(**given.bind(*args, **kwargs).arguments)
+        call = given.bind(*args, **kwargs).arguments
+        check_call(call["problem"], call.get("options"))
         with failures_with_results():
             return result_of(solve(*args, **kwargs))
 
@@ -47,17 +46,6 @@ def _giving(result_of: Callable[[Plain], Whole], solve: Callable[P, Plain]) -> C
     given, kind = signature(solve), signature(result_of).return_annotation
     solved.__signature__ = given.replace(return_annotation=kind)  # type: ignore[attr-defined]
     return solved
-
-
-def _check(problem: object, options: object = None, **others: object) -> None:
-    """Raise if a case is not one, such as the name of its file or a table of its options."""
-    del others
-    if not isinstance(problem, ContactProblem):
-        kind = type(problem).__name__
-        raise InputError(f"problem: must be a ContactProblem, not {kind}; tehl.read_case reads one")
-    if not isinstance(options, Options | None):
-        kind = type(options).__name__
-        raise InputError(f"options: must be tehl.Options, not {kind}: Options(error=0.01)")
 
 
 def _with_stress(solution: Solution) -> Solution:

@@ -132,6 +132,11 @@ def _parquet(path: Path) -> list[tuple[int, list[Any]]]:
 
 def lines_of_frame(frame: "pd.DataFrame") -> list[tuple[int, list[Any]]]:
     """Return headings and rows of a frame as :func:`lines_of`; the first row has number 1."""
+    if not hasattr(frame, "columns"):
+        kind = type(frame).__name__
+        raise InputError(
+            f"frame: must be a pandas.DataFrame, not {kind}; pandas.read_csv reads one"
+        )
     head = [(0, [str(name) for name in frame.columns])]
     empty = frame.isna().to_numpy()
     values = frame.astype(object).to_numpy()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field, StrictBool, ValidationError
 
-from tehl.api.problem import ContactProblem
+from tehl.api.problem import ContactProblem, check_call
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
 from tehl.base.mistakes import describe
@@ -219,6 +219,7 @@ def cases_of(
     InputError
         If an axis is not valid; the message names it.
     """
+    check_call(problem, options)
     base = problem.model_dump(mode="json", exclude_unset=True)
     base["numerics"] = (options or Options()).model_dump(mode="json", exclude_unset=True)
     listed: list[Any] = (
