@@ -358,8 +358,8 @@ def test_a_bar_that_hardly_exceeds_the_error_gets_a_grid_between(
     assert Goal(scaled, options).other_nodes(level, errors(central, minimum)) == nodes
     starved = scaled.problem.model_copy(update={"supply": Supply(ratio=0.9)})
     if central > options.target:  # else more lines
-        goal = Goal(ScaledProblem.of(starved), options)
-        assert goal.other_nodes(level, errors(central, minimum)) == nodes
+        found = Goal(ScaledProblem.of(starved), options).other_nodes(level, errors(central, 0.012))
+        assert found == (193, 193)  # with a wider margin
 
 
 def test_another_grid_fits_beside_the_one_that_is_kept() -> None:

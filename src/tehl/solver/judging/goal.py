@@ -35,13 +35,17 @@ LINES_PART = 2.0
 LEAST_LEFT = 0.4
 """Part of the error to reach that is left to the mesh along y, below which lines alone are too
 many: with 0.55 of it by the supply a drive (M = 34,300) needs 1.7 times as many."""
-FLOODED_PART = 0.7
+FLOODED_PART, EXACT_PART, EXACT_LOAD = 0.7, 0.4, 5e3
 """Error to reach of a flooded film to which ``supply.ratio`` is stated, over that of the starved
 one, which has it beside its own: with 0.5 an inner ring (M = 3,700) needs another grid, with 1 a
-starved rig (M = 811)."""
-BETWEEN, BETWEEN_MARGIN, MOST_OTHERS = 1.5, 1.05, 2
+starved rig (M = 811). The second from a Moes load M on: the flooded film then takes a tenth of the
+time of the other, and with 0.7 a ring (M = 30,000) just misses 1 %."""
+BETWEEN, MOST_OTHERS = 1.5, 2
 """Most intervals along x of another grid over those of the last, as half the mesh width costs four
-times as much; margin of its error bars; and how many other grids are tried."""
+times as much; and how many other grids are tried."""
+BETWEEN_MARGIN, SCARCE_MARGIN = 1.05, 1.25
+"""Margins of the error bars of another grid, the second one where oil is scarce: there minima at
+the sides converge with an order of 1.5 (a ring, M = 30,000)."""
 
 
 @dataclass(slots=True)
@@ -72,7 +76,10 @@ class Goal:
     @property
     def target(self) -> float:
         """The relative error to reach [-]."""
-        return self.options.target * (FLOODED_PART if self.of_central else 1.0)
+        if not self.of_central:
+            return self.options.target
+        heavy = self.scaled.groups.M > EXACT_LOAD
+        return self.options.target * (EXACT_PART if heavy else FLOODED_PART)
 
     @property
     def is_open(self) -> bool:
@@ -234,7 +241,8 @@ class Goal:
         if min(part for _, part in left) <= 0.0 or grid.is_closed or grid.ny == 1:
             return None
         ratio = max(bar / part for bar, part in left)
-        least = (grid.nx - 1) * math.sqrt(BETWEEN_MARGIN * ratio)
+        margin = SCARCE_MARGIN if self.scaled.problem.supply else BETWEEN_MARGIN
+        least = (grid.nx - 1) * math.sqrt(margin * ratio)
         between = [n for n in FAMILIES if grid.nx < n <= BETWEEN * (grid.nx - 1) + 1]
         least_lines = [(n - 1) * (grid.ny - 1) / (grid.nx - 1) + 1 for n in between]
         lines = [next((m for m in FAMILIES if m >= one), 0) for one in least_lines]
