@@ -11,6 +11,9 @@ from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.kernels.energy.records import Surfaces
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import HeatedFilm
+from tehl.solver import steady
+from tehl.solver.cycle.ladder import Strategy
+from tehl.solver.cycle.relaxation import BROAD
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient.run import Run
 from tests.reference import DOMAIN, heated_contact
@@ -43,6 +46,21 @@ def test_a_heated_film_without_roughness_stays_steady():
     np.testing.assert_allclose(film, film[0], rtol=1e-6)
     assert rise[0] > 10.0
     np.testing.assert_allclose(rise, rise[0], rtol=0, atol=1e-4)
+
+
+def test_heat_in_time_does_not_lag_where_the_start_was_damped(monkeypatch):
+    unit = scales(heated_contact(0.5))
+    period = unit.half_width_x / unit.speed
+    load = [(0.0625 * n * period, 1.0 + 0.1 * np.sin(0.25 * np.pi * n)) for n in range(24)]
+    case = hot(1.0, transient={"load": load}, shear={"law": "eyring", "stress": 7e6})
+    quick = solve_transient(case, OPTIONS).history
+    damped = Strategy(relaxation=BROAD, damping=0.5, patience=3)
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: (damped,))
+    slow = solve_transient(case, OPTIONS).history
+    assert np.ptp(quick.temperature_rise) > 1.0
+    # 1e-3 and 1e-4 if each step lags behind
+    np.testing.assert_allclose(slow.temperature_rise, quick.temperature_rise, rtol=1e-5)
+    np.testing.assert_allclose(slow.film_central, quick.film_central, rtol=1e-6)
 
 
 def breathing(slide: float) -> ContactProblem:

@@ -92,11 +92,10 @@ class Coupling:
         # without counter-moving surfaces the backflow of the coarser grids is accurate enough
         self.thorough = options.accuracy == "tight" or counter_moving
         self.sweeps_left = RAMP if slide_in_steps else 0
-        self.damping = damping if is_coupled else 1.0
-        self.lag = Lag(self.damping, heats=scaled.problem.thermal is not None)
+        self.lag = Lag(damping if is_coupled else 1.0, heats=scaled.problem.thermal is not None)
         self.state: FilmState | None = None  # on the last level that was started
         self.factors: properties.Factors | None = None
-        self.change, self.rise, self.skip = 0.0, 0.0, False
+        self.last, self.skip = (0.0, 0.0), False  # change and rise of the last sweep [K]
         # where motion varies: the density is that of the oil, not of its flux
         self.carries_mean = False
 
@@ -151,6 +150,11 @@ class Coupling:
         return True
 
     @property
+    def damping(self) -> float:
+        """Damping factor per sweep, 1 is undamped [-]."""
+        return self.lag.damping
+
+    @property
     def is_pending(self) -> bool:
         """Whether heat or thinning are still to begin."""
         return self.film is not None and self.state is None
@@ -198,16 +202,18 @@ class Coupling:
             return 0.0, 0.0
         if self.skip:
             self.skip = False
-            return self.change, self.rise
+            return self.last
+        change = 0.0
         for _ in range(MOST_SWEEPS):
-            self.change = self._sweep(self.state, levels, STRESS_STEPS)
-            if self.change < LARGE_CHANGE or self.sweeps_left or self.damping < 1.0:
+            change = self._sweep(self.state, levels, STRESS_STEPS)
+            if change < LARGE_CHANGE or self.sweeps_left or self.damping < 1.0:
                 break
-        before, self.rise = self.rise, self._deviation()
-        steady = abs(self.rise - before) < SMALL_RISE_CHANGE * abs(self.rise)
+        (_, before), rise = self.last, self._deviation()
+        steady = abs(rise - before) < SMALL_RISE_CHANGE * abs(rise)
         may_skip = self.state.sweeps >= LEAST_SWEEPS and not self.thorough and self.damping == 1.0
-        self.skip = may_skip and steady and self.change < SMALL_KELVIN_CHANGE * abs(self.rise)
-        return self.change, self.rise
+        self.skip = may_skip and steady and change < SMALL_KELVIN_CHANGE * abs(rise)
+        self.last = change, rise
+        return self.last
 
     def _deviation(self) -> float:
         """Return the largest rise over the inlet, or the largest fall if that is larger [K]."""
@@ -314,6 +320,7 @@ class Coupling:
             Where the surfaces change their speeds: steps of the run, and nodes beyond either edge
             to which surfaces go that come back.
         """
+        self.lag.damping = 1.0  # steps are small: heat and thinning need no damping
         if self.state is not None and varying is not None:
             self.carries_mean = self.thorough = self.state.thorough = True
             self._couple(self.state, levels)

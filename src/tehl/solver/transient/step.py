@@ -81,7 +81,6 @@ class Stepper:
     ) -> None:
         self.solver, self.transient, self.settings = solver, transient, settings
         self.schedule, level = schedule, solver.finest
-        solver.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
         varying = schedule.length(level.grid.dx, level.grid.nx)
         solver.coupling.begin_transient(solver.levels, schedule.step, varying)
         self.oil = Oil(level, transient.stride, solver.options.order, schedule)
