@@ -40,7 +40,7 @@ FLOODED_PART, EXACT_PART, EXACT_LOAD = 0.7, 0.4, 5e3
 one, which has it beside its own: with 0.5 an inner ring (M = 3,700) needs another grid, with 1 a
 starved rig (M = 811). The second from a Moes load M on: the flooded film then takes a tenth of the
 time of the other, and with 0.7 a ring (M = 30,000) just misses 1 %."""
-BETWEEN, MOST_OTHERS = 1.5, 2
+BETWEEN, MOST_OTHERS = 1.5, 3
 """Most intervals along x of another grid over those of the last, as half the mesh width costs four
 times as much; and how many other grids are tried."""
 BETWEEN_MARGIN, SCARCE_MARGIN = 1.05, 1.25
@@ -232,7 +232,9 @@ class Goal:
         grid, target = level.grid, self.target
         if errors is None or not self.options.extrapolate:
             return None
-        if self.of_central:
+        scarce = self.scaled.problem.supply is not None
+        # on grids of another family the sides of wide contacts with scarce oil come to rest later
+        if self.of_central or (scarce and self.scaled.groups.ellipticity < 1.0):
             return None
         pairs = [(errors.central, errors.discretisation_central)]
         if errors.minimum_has_limit:
@@ -241,7 +243,7 @@ class Goal:
         if min(part for _, part in left) <= 0.0 or grid.is_closed or grid.ny == 1:
             return None
         ratio = max(bar / part for bar, part in left)
-        margin = SCARCE_MARGIN if self.scaled.problem.supply else BETWEEN_MARGIN
+        margin = SCARCE_MARGIN if scarce else BETWEEN_MARGIN
         least = (grid.nx - 1) * math.sqrt(margin * ratio)
         between = [n for n in FAMILIES if grid.nx < n <= BETWEEN * (grid.nx - 1) + 1]
         least_lines = [(n - 1) * (grid.ny - 1) / (grid.nx - 1) + 1 for n in between]
