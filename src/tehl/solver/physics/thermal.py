@@ -203,25 +203,18 @@ class Coupling:
         if self.skip:
             self.skip = False
             return self.last
-        change = 0.0
         for _ in range(MOST_SWEEPS):
             change = self._sweep(self.state, levels, STRESS_STEPS)
             if change < LARGE_CHANGE or self.sweeps_left or self.damping < 1.0:
                 break
-        (_, before), rise = self.last, self._deviation()
+        (_, before), inlet = self.last, self.scaled.scales.temperature
+        hottest, coldest = self.state.temperature.max(), self.state.temperature.min()
+        rise = max(float(hottest) - inlet, float(coldest) - inlet, key=abs)
         steady = abs(rise - before) < SMALL_RISE_CHANGE * abs(rise)
         may_skip = self.state.sweeps >= LEAST_SWEEPS and not self.thorough and self.damping == 1.0
         self.skip = may_skip and steady and change < SMALL_KELVIN_CHANGE * abs(rise)
         self.last = change, rise
         return self.last
-
-    def _deviation(self) -> float:
-        """Return the largest rise over the inlet, or the largest fall if that is larger [K]."""
-        if self.state is None:
-            return 0.0
-        inlet, temperature = self.scaled.scales.temperature, self.state.temperature
-        rise, fall = float(temperature.max()) - inlet, float(temperature.min()) - inlet
-        return rise if rise >= -fall else fall
 
     def temperature_rise(self) -> float:
         """Return the largest temperature rise over the inlet [K]."""
