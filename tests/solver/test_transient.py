@@ -430,11 +430,13 @@ def test_a_run_ends_at_the_time_that_is_stated_and_continues_from_there(monkeypa
 
 
 @pytest.mark.parametrize(("cause", "change"), [("stalled", 1e-3), ("diverged", 1e-9)])
-def test_the_hint_of_a_step_that_does_not_converge_names_the_asperities(cause, change):
-    case = in_time(0.3, transient={"tolerance": 1e-12})
+@pytest.mark.parametrize("rough", [False, True])
+def test_the_hint_of_a_step_that_does_not_converge_names_asperities_if_any(cause, change, rough):
+    case = in_time(7.5, transient={"tolerance": 1e-12}, surface_1=wave() if rough else {})
     run = Run(case, OPTIONS, case.transient, SILENT)
-    status = run.step_not_settled(StepError(cause, change), 0.0)
-    assert "asperities" in str(status.hint)
+    hint = str(run.step_not_settled(StepError(cause, change), 0.0).hint)
+    assert ("asperities" in hint) == rough
+    assert "numerics.points" in hint
 
 
 @pytest.mark.slow

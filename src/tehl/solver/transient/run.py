@@ -308,9 +308,10 @@ class Run:
             End of the step [s].
         """
         (nx, ny), tolerance = self.level.grid.points, self.transient.tolerance
+        other = "lower or longer asperities, " if self.problem.is_rough else ""
         hint = Hint(
-            "Take lower or longer asperities, more nodes (numerics.points), or more cycles per "
-            "step (transient.max_cycles)."
+            f"Take {other}more nodes (numerics.points), or more cycles per step "
+            "(transient.max_cycles)."
         )
         if error.cause == "stalled" and tolerance < error.change < NEARLY_CONVERGED:
             hint = Hint(
