@@ -356,10 +356,18 @@ def test_a_bar_that_hardly_exceeds_the_error_gets_a_grid_between(
     options = settled(scaled.problem, Options())
     level = with_minimum_at(0.1, finest_grid(scaled, options.on_points(129, 129)))
     assert Goal(scaled, options).other_nodes(level, errors(central, minimum)) == nodes
-    starved = scaled.problem.model_copy(update={"supply": Supply(ratio=0.9)})
-    if central > options.target:  # else more lines
-        found = Goal(ScaledProblem.of(starved), options).other_nodes(level, errors(central, 0.012))
-        assert found == (193, 193)  # with a wider margin
+
+
+@pytest.mark.parametrize(("radius_ratio", "nodes"), [(1.0, (193, 193)), (0.5, None)])
+def test_with_scarce_oil_the_margin_of_a_grid_between_is_wider_and_wide_contacts_get_none(
+    radius_ratio: float, nodes: tuple[int, int] | None
+) -> None:
+    """A circle that is flooded gets 161 nodes; a wide drive (M = 489) took four times as long."""
+    flooded = moes_contact(400.0, 10.0, radius_ratio=radius_ratio)
+    starved = flooded.model_copy(update={"supply": Supply(ratio=0.9)})
+    scaled, options = ScaledProblem.of(starved), settled(starved, Options())
+    level = with_minimum_at(0.1, finest_grid(scaled, options.on_points(129, 129)))
+    assert Goal(scaled, options).other_nodes(level, errors(0.012, 0.012)) == nodes
 
 
 def test_another_grid_fits_beside_the_one_that_is_kept() -> None:

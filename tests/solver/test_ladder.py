@@ -21,6 +21,7 @@ from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import (
     AT_EDGES,
     BETWEEN_ROUGH,
+    COUPLED,
     STARVED_DAMPING,
     UNCOMBINED,
     UNDAMPED,
@@ -285,6 +286,14 @@ def test_scarce_oil_on_few_lines_is_tried_on_more_before_a_wedge_of_second_order
 def test_cycles_that_lead_away_do_not_blame_the_grid() -> None:
     """A cam with a thick film (M = 245, L = 14): that of the first strategy wanders."""
     found = steady.solve(machines.contact(17, 30)[2], Options())
+    assert found.errors.film() < 0.01
+
+
+def test_a_grid_that_oscillates_is_not_kept_for_another_strategy(monkeypatch) -> None:
+    """A test rig (M = 2900): bars by the film that swings on 161 columns ask for 641 columns."""
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: COUPLED[:2])
+    found = steady.solve(machines.contact(97, 109)[2], Options())
+    assert found.scaled.film.shape[1] == 321
     assert found.errors.film() < 0.01
 
 

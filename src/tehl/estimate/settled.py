@@ -46,18 +46,13 @@ def raises_order(problem: ContactProblem, options: Options) -> bool:
     Parameters
     ----------
     problem : ContactProblem
-        Steady, without boundary contact, if it has.
+        Rough or smooth, steady or not, with boundary contact or without.
     options : Options
         Those that state nodes or an order keep it.
     """
     is_free = options.points == "auto" and options.wedge_order is None
-    return is_free and problem.is_rough and _is_steady(problem)
-
-
-def _is_steady(problem: ContactProblem) -> bool:
-    """Whether a point contact is steady, and nothing touches on its mesh."""
-    is_point = not problem.contact.has_lines
-    return is_point and problem.transient is None and problem.contact_film is None
+    is_steady = problem.transient is None and problem.contact_film is None
+    return is_free and is_steady and problem.is_rough and not problem.contact.has_lines
 
 
 def _between_ends(problem: ContactProblem, options: Options) -> Options:

@@ -32,8 +32,8 @@ SURFACE_TOLERANCE, SURFACE_ITERATIONS = 0.02, 30
 """Of the coupled surface temperatures after each sweep; the next sweep improves them again."""
 SURFACE_KELVIN, SURFACE_RISE = 1e-3, 2e-4
 """Error of surface temperatures that is left as it is, in K and over the largest rise, the larger
-one; a film changes by 5e-5 with the first. Until then a bearing (M = 5,300) whose surfaces warm by
-0.03 K took a third of its CPU time for them."""
+one; a film changes by 5e-5 with the first. Without it the surfaces of a test rig (M = 5,300), which
+warm by 0.03 K, take a third of its CPU time."""
 STREAM_ITERATIONS = 4
 """The same where a surface is heated along paths that turn, as a product follows them from station
 to station. Ten take more time and as many sweeps; without any, the temperature of a surface that
