@@ -216,6 +216,30 @@ def test_the_hint_to_a_likely_cause_stays_where_the_time_to_try_others_is_over()
         hint = working_hint(replace(failed, status=status), takes_long, SILENT, 0.0)
         assert (hint == law) is kept
 
+    # cycles that stalled there have no cause of their own
+    law = replace(law, settings={"lubricant.shear": {"law": "eyring", "stress": "5 MPa"}})
+    status = replace(failed.status, kind="stalled", cause="stalled", hint=law)
+    assert working_hint(replace(failed, status=status), takes_long, SILENT, 0.0) == law
+
+
+def test_a_shear_law_is_tried_first_where_the_stress_is_the_likely_cause():
+    tables = ball_tables(thermal={})
+    tables["lubricant"] |= {"conductivity": 0.14, "heat_capacity": 2000.0}
+    tables["lubricant"]["viscosity"] |= {"gamma": 0.04, "reference_temperature": "40 degC"}
+    problem = ContactProblem.model_validate(tables)
+    failed = replace(failure(100.0, points=33).result, problem=problem, options=Options())
+    law = Hint("oils shear at such stresses.", {"lubricant.shear": {"law": "eyring"}})
+    for hint, first in ((law, "eyring"), (Hint("Take more."), "newtonian")):
+        tried: list[str] = []
+
+        def fails(problem: ContactProblem, _options: Options, tried=tried):
+            tried.append(problem.lubricant.shear.law)
+            raise InputError("no memory")
+
+        status = replace(failed.status, hint=hint)
+        working_hint(replace(failed, status=status), fails, SILENT, math.inf)
+        assert tried[0] == first
+
 
 @pytest.mark.parametrize("seconds", [0.5, 30.0])
 def test_other_nodes_keep_the_lines_of_a_roller_and_need_a_part_of_the_time(seconds):

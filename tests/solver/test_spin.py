@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tehl.api.problem import ContactProblem
-from tehl.api.results import Result
+from tehl.api.results import ConvergenceError, Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Domain, Options
 from tehl.estimate.scaling import ScaledProblem
@@ -51,6 +51,16 @@ def test_the_opposite_spin_has_the_mirrored_film():
     one, other = (solved(spinning(spin), tolerance=1e-9) for spin in (0.8, -0.8))
     assert np.abs(other.scaled.film[::-1] / one.scaled.film - 1.0).max() < 1e-5
     assert one.film.minimum_at[1] > 0.0  # on the left, where the surfaces are slower
+
+
+def test_a_light_ellipse_that_spins_fast_is_told_what_would_help():
+    """Its load far outside grows with the logarithm of the radius: no domain holds it."""
+    problem = spinning(0.6, load=3.5, speed=2.7, ratio=RATIO)
+    with pytest.raises(ConvergenceError) as caught:
+        solve(problem, Options(error=0.02))
+    status = caught.value.result.status
+    assert status.cause == "error_not_reached"
+    assert "more of the load is then on the grid" in str(status.hint)
 
 
 def test_a_little_spin_changes_the_central_film_by_its_square_and_the_sides_in_proportion():

@@ -47,6 +47,11 @@ BETWEEN_MARGIN, SCARCE_MARGIN = 1.05, 1.25
 """Margins of the error bars of another grid, the second one where oil is scarce: there minima at
 the sides converge with an order of 1.5 (a ring, M = 30,000)."""
 
+LESS_SPIN = (
+    "Take a higher load or less spin (the mean of contact.spin_1 and contact.spin_2): more of the "
+    "load is then on the grid."
+)
+
 
 @dataclass(slots=True)
 class Goal:
@@ -68,6 +73,8 @@ class Goal:
     until: float = math.inf
     obstacle: str = ""
     """Why no finer grid follows."""
+    advice: str = ""
+    """What would help there, beside a larger error."""
     _tries: int = 0
     _others: int = 0
     _started: float = field(default_factory=working_time)
@@ -278,11 +285,12 @@ class Goal:
         expected = FACTOR * (now - self._last)
         needed = self._needed((nx, ny))
         available, supply = memory_limit(self.options), supply_error(self.scaled)
-        self.obstacle = ""
+        self.obstacle = self.advice = ""
         if errors is not None and errors.domain > self.target:
             cause = "the domain, upstream of which the oil warms or cools"
             if spin_error(self.scaled) > 0.5 * errors.domain:
                 cause = "the pressure that spin makes outside the domain, in the gap of an ellipse"
+                self.advice = LESS_SPIN
             if isinstance(self.options.domain, Domain):
                 cause = "numerics.domain"
             self.obstacle = f"{percentage(errors.domain)} are due to {cause}"

@@ -91,7 +91,7 @@ def working_hint(
     found, is_short = None, end < enough
     end = max(min(enough, end), now + LEAST_SECONDS)
     least = math.inf if reached is None else reached[1]
-    for trials in (_default_domain(failed), _errors(failed, least), _other_physics(failed)):
+    for trials in _trials(failed, least):
         hopeless: set[tuple[int, int]] = set()
         for settings, problem, options in trials:
             if end <= working_time():
@@ -109,20 +109,35 @@ def working_hint(
         if found is not None:
             return found
     if reached is not None:
-        (nx, ny), error = reached
-        return Hint(f"{grid_size((nx, ny))} converged.", error_setting(error))
+        return _reached(failed.status.hint, reached)
     if is_short and end <= working_time():
         return _untried(failed)
     other = "; lower or longer asperities may" if failed.problem.is_rough else ""
     return Hint(f"No setting is known with which this contact converges{other}.")
 
 
+def _reached(stated: Hint | None, reached: Reached) -> Hint:
+    """Return the hint to an error that was reached; the one ``stated`` where none is as large."""
+    (nx, ny), error = reached
+    settings = error_setting(error)
+    if not settings and stated is not None and stated.advice:
+        return stated
+    return Hint(f"{grid_size((nx, ny))} converged.", settings)
+
+
 def _untried(failed: Solution) -> Hint:
     """Return the hint where the time to try settings was over: that to a likely cause, if known."""
     status = failed.status
-    if status.kind == "diverged" and status.cause != "diverged" and status.hint is not None:
+    named = status.kind == "diverged" and status.cause != "diverged"
+    if status.hint is not None and (named or _names_shear(failed)):
         return status.hint
     return Hint("The time to try other settings was over: more numerics.max_time tries more.")
+
+
+def _names_shear(failed: Solution) -> bool:
+    """Return whether the likely cause is the stress of an oil that does not thin."""
+    hint = failed.status.hint
+    return hint is not None and "lubricant.shear" in hint.settings
 
 
 def _time_of_trial(failed: Solution, end: float) -> float:
@@ -145,6 +160,14 @@ def _tried(settings: Settings, solve: Callable[[], Solution]) -> Hint | None:
 
 
 Trial = tuple[Settings, ContactProblem, Options]
+
+
+def _trials(failed: Solution, least: float) -> list[Iterator[Trial]]:
+    """Return what is tried, in this order; ``least``: the error that was reached."""
+    others = [_errors(failed, least), _other_physics(failed)]
+    if _names_shear(failed):  # no error makes up for such stresses
+        others.reverse()
+    return [_default_domain(failed), *others]
 
 
 def _default_domain(failed: Solution) -> Iterator[Trial]:

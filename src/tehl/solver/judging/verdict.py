@@ -373,7 +373,7 @@ def _error_status(run: FilmSolver) -> Status:
     if not goal.is_open or errors is None or goal.is_met(errors, run.minimum_part()):
         return CONVERGED
     nodes = grid_size(run.finest.grid.points)
-    reached = errors.film(run.minimum_part())
+    settings = error_setting(errors.film(run.minimum_part()))
     minimum, target = " film", percentage(run.options.target)
     if errors.minimum_has_limit:
         minimum = f" and {percentage(errors.minimum)} of the minimum film"
@@ -381,7 +381,7 @@ def _error_status(run: FilmSolver) -> Status:
         "error_not_reached",
         f"The error bars on {nodes} are {percentage(errors.central)} of the central{minimum}, "
         f"above numerics.error = {target}: {goal.obstacle or 'the next grid does not converge'}.",
-        Hint(settings=error_setting(reached)),
+        Hint(settings=settings) if settings else Hint(goal.advice),
     )
 
 
