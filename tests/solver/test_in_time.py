@@ -86,6 +86,18 @@ def test_a_slow_change_passes_through_steady_films():
     assert abs(steady.film.central / run.history.film_central[0] - 1.0) > 0.02
 
 
+def test_steps_at_the_default_tolerance_are_within_a_hundredth_of_a_percent_of_tight_ones():
+    """A step that starts from the approach of the last one errs always to the same side."""
+    course = CHANGES["sine"]
+    tight, usual = (
+        changing(257, [-4.5, 1.5], 4.0, **course, **one) for one in ({}, {"tolerance": 1e-3})
+    )
+    for name in ("film_central", "film_minimum"):
+        found, wanted = (getattr(one.history, name) for one in (usual, tight))
+        np.testing.assert_allclose(found, wanted, rtol=3e-5)
+    assert usual.history.cycles[1:].mean() < 2.1
+
+
 def test_a_table_that_does_not_change_gives_the_same_run_bit_by_bit():
     plain = changing(129, [-4.5, 1.5], 2.0)
     table = [[0.0, 1.0], [UNIT, 1.0]]

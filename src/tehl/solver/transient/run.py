@@ -248,6 +248,7 @@ class Run:
                 "mass_before": self.stepper.oil.before,
                 "mass_steady": self.stepper.oil.steady,
                 "pressure_changes": self.stepper.predictor.past,
+                "rigid_motion": self.stepper.motion,
                 "excess": self.stepper.squeeze.past,
                 "excess_steady": self.stepper.squeeze.steady,
                 **self.stepper.solver.coupling.pack(self.stepper.solver.levels),
@@ -269,6 +270,7 @@ class Run:
         if oil.follows:
             oil.follow(steady)
         self.stepper.predictor.past = fields.pop("pressure_changes")
+        self.stepper.motion = fields.pop("rigid_motion")
         squeeze, excess = self.stepper.squeeze, fields.pop("excess_steady")
         squeeze.past = fields.pop("excess")
         if isinstance(squeeze, Lead):

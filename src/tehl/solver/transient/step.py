@@ -85,6 +85,7 @@ class Stepper:
         solver.coupling.begin_transient(solver.levels, schedule.step, varying)
         self.oil = Oil(level, transient.stride, solver.options.order, schedule)
         self.predictor = Predictor(level.pressure, transient.stride)
+        self.motion = np.zeros_like(level.rigid)  # change of the rigid motions in the last step
         # all levels take the same time step, and so the same weight of rho H
         levels = solver.hierarchy.chain(solver.levels)
         for one in levels:
@@ -139,6 +140,8 @@ class Stepper:
                 level.update()
                 coupling.revert(self.solver.levels)
             elif self.touching is None:
+                # a pressure without its approach is a film that the first cycle has to move back
+                level.move(self.motion)
                 level.set_pressure(self.predictor.onward())
             pose_step(level, history + self.squeeze.onward(), heights, equations)
             try:
@@ -151,6 +154,7 @@ class Stepper:
                 raise StepError("diverged", np.nan) from error
             self.oil.accept(moment)
             self.predictor.note(level.pressure)
+            self.motion = level.rigid - start[1]
             self.squeeze.advance()
             coupling.advance(self.solver.levels)
             return end
