@@ -47,7 +47,7 @@ def test_the_formula_of_the_page_has_the_value_that_it_states():
     lines = added("adding-a-formula.md", "src/tehl/estimate/film_formulas.py")
     exec(lines[lines.index("def ") :], names)
     groups = ScaledProblem.of(moes_contact(100.0, 0.1)).groups
-    film = names["hamrock_dowson_soft"](replace(groups, U=3.8e-8, W=1.9e-4))
+    film = names["hamrock_dowson_soft"](replace(groups, U=3.8e-8, M=1.9e-4 * 7.6e-8**-0.75))
     assert film.central == pytest.approx(3.918e-4, rel=1e-3)
 
 

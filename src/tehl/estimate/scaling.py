@@ -42,9 +42,8 @@ class Groups:
     L: float
     """Moes load and speed (lubricant) parameter."""
     U: float
-    W: float
     G: float
-    """Hamrock-Dowson groups, with the mean speed and R_x."""
+    """Speed and material of Hamrock and Dowson, with the mean speed and R_x."""
     lambda_bar: float
     """12 eta_0 u_m R_x^2 / (a_x^3 p_h)."""
     alpha_bar: float
@@ -61,6 +60,11 @@ class Groups:
 
     roller: Roller | None = None
     """The roller under its load, if it is one."""
+
+    @property
+    def W(self) -> float:  # noqa: N802 (as in the literature)
+        """The load of Hamrock and Dowson."""
+        return self.M * (2.0 * self.U) ** self.shape.speed_power
 
     @property
     def shape(self) -> Shape:
@@ -144,7 +148,6 @@ def groups(problem: ContactProblem) -> Groups:
         M=load * (2.0 * speed) ** -shape.speed_power,
         L=material * (2.0 * speed) ** 0.25,
         U=speed,
-        W=load,
         G=material,
         lambda_bar=viscous * radius**2 / (hertz.half_width_x**3 * hertz.pressure),
         alpha_bar=problem.pressure_coefficient * hertz.pressure,

@@ -34,7 +34,7 @@ _FORMULAS: tuple[tuple[str, Callable[[Groups], FilmRatio], str], ...] = (
     ("Chittenden et al.: minimum", chittenden, "minimum"),
 )
 _COMPUTED = {"central": "film.H_central_moes", "minimum": "film.H_min_moes"}
-_GROUPS = ("M", "L", "U", "W", "G", "lambda_bar", "alpha_bar", "ellipticity", "radius_ratio")
+_GROUPS = ("M", "L", "U", "G", "lambda_bar", "alpha_bar", "ellipticity", "radius_ratio")
 
 
 def contour_map(  # noqa: PLR0913 (one call, as in other libraries of pictures)

@@ -112,7 +112,7 @@ class Cycles:
         begun = visit.damping == 1.0 or visit.is_damped
         is_smooth = begun and not visit.roughness.is_rough
         combines = visit.is_rough or (
-            (fine.share.combines or is_smooth) and not fine.cavity.is_balanced
+            (fine.share.is_steep or is_smooth) and not fine.cavity.is_balanced
         )
         self.anderson = Anderson(memory) if memory and combines else None
         self.before = np.zeros(0)
@@ -123,7 +123,7 @@ class Cycles:
         ``doublings``: of the cycles, where temperatures converge slowly.
         """
         most = max(MOST_CYCLES << doublings, self.visit.fine.cavity.most_cycles)
-        return MOST_COMBINED if self.anderson and self.visit.fine.share.combines else most
+        return MOST_COMBINED if self.anderson and self.visit.fine.share.is_steep else most
 
     def begin(self) -> None:
         """Note the state before a step."""
@@ -140,7 +140,7 @@ class Cycles:
             return
         fine = self.visit.fine
         combined = self.anderson.combine(self.before, unknowns(fine))
-        if not fine.share.combines:
+        if not fine.share.is_steep:
             # a combination must not wet the nodes that the last cycle cavitated
             combined[: fine.film.p.size][fine.film.p.ravel() <= 0.0] = 0.0
         set_unknowns(fine, combined)

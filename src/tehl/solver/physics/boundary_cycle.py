@@ -182,7 +182,7 @@ class TouchingCycle:
         change = share.opened(level)
         if not touching.any():
             return change
-        gap = share.nearest - level.separation
+        gap = share.boundary.separation - level.separation
         pressed = change + share.jumped
         if pressed.any():
             moved = np.empty_like(gap)

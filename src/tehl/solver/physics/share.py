@@ -63,11 +63,10 @@ class OilAlone:
     by_flux = False
     """Whether the orders of the wedge are chosen for each flux."""
     is_steep = False
-    """Whether a small change of the film moves much load: corrections are limited."""
+    """Whether a small change of the film moves much load: corrections are limited, and earlier
+    cycles combined with the last one between smooth surfaces too."""
     lowest = 0.0
     """Pressure of the oil down to which a correction may take a film that stays wet [-]."""
-    combines = False
-    """Whether earlier cycles are combined with the last one between smooth surfaces too."""
     largest_part = np.inf
     """Most that the smallest film may be over that of the oil alone, as a part of its error [-]."""
     stays = False

@@ -5,6 +5,7 @@ keep the pressure that they have at the boundary film.
 """
 
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -50,7 +51,7 @@ class Summits(OilAlone):
         Their laws over the separation.
     """
 
-    is_steep, combines, lowest = True, True, -np.inf
+    is_steep, lowest = True, -np.inf
 
     def __init__(self, equations: Equations, table: AsperityTable) -> None:
         super().__init__(equations)
@@ -147,6 +148,17 @@ class Summits(OilAlone):
                 return
 
 
+class Boundary(NamedTuple):
+    """What there is where surfaces touch."""
+
+    film: float
+    """Boundary film H_c [-]."""
+    separation: float
+    """Of the mean planes [-]."""
+    carried: float = 0.0
+    """Pressure of the summits [-]."""
+
+
 class BoundaryContact(OilAlone):
     """Surfaces that touch where the film is that of the boundary.
 
@@ -170,13 +182,12 @@ class BoundaryContact(OilAlone):
 
     def __init__(self, equations: Equations, least: float, beneath: OilAlone) -> None:
         super().__init__(equations)
-        shape, self.beneath, self.least = equations.grid.shape, beneath, least
-        self.nearest, self.carried = least, 0.0  # separation and pressure of summits at H_c
+        shape, self.beneath = equations.grid.shape, beneath
+        self.boundary = Boundary(film=least, separation=least)
         if isinstance(beneath, Summits):
-            self.nearest = beneath.table.separation(least)
-            self.carried = beneath.table.pressure(self.nearest)
-        self.is_steep, self.lowest = beneath.is_steep, beneath.lowest
-        self.combines, self.reach = beneath.combines, beneath.reach
+            separation = beneath.table.separation(least)
+            self.boundary = Boundary(least, separation, beneath.table.pressure(separation))
+        self.is_steep, self.lowest, self.reach = beneath.is_steep, beneath.lowest, beneath.reach
         self.touching, self.lowered = np.zeros(shape, bool), np.zeros(shape, bool)
         self.held, self.injected = np.zeros(shape), np.zeros(shape)
         self.jumped = np.zeros(shape)
@@ -225,9 +236,9 @@ class BoundaryContact(OilAlone):
         self.held[:] = level.separation
         if not self.stays:
             self._find(level)
-            np.maximum(level.separation, self.nearest, out=self.held)
+            np.maximum(level.separation, self.boundary.separation, out=self.held)
         if level.is_finest:
-            self.held[touching] = self.nearest
+            self.held[touching] = self.boundary.separation
         if not isinstance(self.beneath, Summits):
             level.film.h[:] = self.held
             level.update_properties()
@@ -242,8 +253,8 @@ class BoundaryContact(OilAlone):
 
     def _find(self, level: Carried) -> None:
         inner = self.equations.grid.inner
-        gap = (level.separation - self.nearest) / self.equations.influence.self_film
-        self.touching[inner] = (level.film.asperity - self.carried > gap)[inner]
+        gap = (level.separation - self.boundary.separation) / self.equations.influence.self_film
+        self.touching[inner] = (level.film.asperity - self.boundary.carried > gap)[inner]
 
     def follow_response(self, finer: OilAlone, level: Carried) -> None:
         """Take the response, and the nodes most of whose fine ones touch: these stay together."""
@@ -262,7 +273,10 @@ class BoundaryContact(OilAlone):
         """
         if self.response is None or not self.touching.any():
             return
-        gap, pressed = np.where(self.touching, self.nearest - level.separation, 0.0), self.held
+        gap, pressed = (
+            np.where(self.touching, self.boundary.separation - level.separation, 0.0),
+            self.held,
+        )
         if not gap.any():
             return
         self.flattening.deflect(gap, pressed)
@@ -300,12 +314,12 @@ class BoundaryContact(OilAlone):
 
     def error(self, level: Carried) -> float:
         """Return the mean error of H = H_c where the surfaces touch, as a pressure [-]."""
-        errors = np.where(self.touching, np.abs(level.separation - self.nearest), 0.0)
+        errors = np.where(self.touching, np.abs(level.separation - self.boundary.separation), 0.0)
         return float(errors.mean()) / self.equations.influence.self_film
 
     def opened(self, level: Carried) -> Array:
         """Return the change by which nodes that do not touch lose their contact pressure [-]."""
-        lost = level.film.asperity - self.carried
+        lost = level.film.asperity - self.boundary.carried
         if isinstance(self.beneath, Summits):  # apart from the boundary film summits carry less
             lost = np.maximum(lost, 0.0)
         return np.where(self.touching, 0.0, -lost)
@@ -320,9 +334,9 @@ class BoundaryContact(OilAlone):
         How much of the pressure there is that of the oil depends on how it was trapped
         (docs/theory/contact.md, shares).
         """
-        if not (level.film.asperity > self.carried).any():  # the oil carries all
+        if not (level.film.asperity > self.boundary.carried).any():  # the oil carries all
             return np.zeros(level.film.p.shape, bool)
-        return np.asarray(level.film.h <= (1.0 + TOUCHING_MARGIN) * self.least)
+        return np.asarray(level.film.h <= (1.0 + TOUCHING_MARGIN) * self.boundary.film)
 
     def parts(self, level: Carried) -> dict[str, float]:
         """Return the parts of the load where the surfaces touch, and on asperities elsewhere."""
@@ -354,13 +368,13 @@ class BoundaryContact(OilAlone):
     def start(self, level: Carried, expected_film: float) -> None:
         """Start as without contact, or dry where the oil that enters fills no boundary film."""
         grid, layer = self.equations.grid, self.equations.layer
-        if layer is None or layer.max() > self.least:
+        if layer is None or layer.max() > self.boundary.film:
             self.beneath.start(level, expected_film)
             return
         oil, dry = np.zeros(grid.shape), dry_pressure(grid, self.equations.groups)
         level.set_state(oil, 0.0, dry)
         level.update()
-        level.move(self.nearest - central_value(grid, level.separation))
+        level.move(self.boundary.separation - central_value(grid, level.separation))
         level.set_state(oil, level.rigid_approach, dry)  # far apart, summits have taken its place
 
 
