@@ -23,31 +23,45 @@ SLOTS = 7
 """Neighbours of a node, itself included."""
 
 
-class Coarse(NamedTuple):
-    """State of the coarsest grid: fields (ny, nx) and the derivatives of the conductance.
+class Conductance(NamedTuple):
+    """Conductance ``eps`` of the nodes, and its derivatives by pressure and film.
 
-    Along x and y the conductance and its derivatives are ``stretch_x`` and ``stretch_y`` times as
-    large. With asperities ``rho`` is d(rho h)/dH, ``stiffness`` -dp_a/dH, and ``asperity`` their
+    Along x and y all three are ``stretch_x`` and ``stretch_y`` times as large.
+    """
+
+    eps: Array
+    eps_p: Array
+    eps_h: Array
+    stretch_x: Array
+    stretch_y: Array
+
+
+class Lines(NamedTuple):
+    """Speed and drift of surfaces that spin, and weights of the lines beside, as of `Film`."""
+
+    speed: Array
+    drift: Array
+    south: Array
+    north: Array
+
+
+class Coarse(NamedTuple):
+    """State of the coarsest grid: fields (ny, nx), or flat.
+
+    With asperities ``rho`` is d(rho h)/dH, ``stiffness`` -dp_a/dH, and ``asperity`` their
     pressure; without these have no elements.
     """
 
     p: Array
     h: Array
-    eps: Array
     rho: Array
     drho: Array
-    eps_p: Array
-    eps_h: Array
-    stretch_x: Array
-    stretch_y: Array
     partial: FlagArray
     second: FlagArray
     stiffness: Array
     asperity: Array
-    speed: Array
-    drift: Array
-    south: Array
-    north: Array
+    conductance: Conductance
+    lines: Lines
 
 
 class CoarseSystem(NamedTuple):
@@ -159,22 +173,23 @@ def _add_face(state: Coarse, stencil: Stencil, work: Work, n: int) -> None:
     """Add the derivatives of the pressure flow from neighbour ``n``."""
     near, by_p, by_h = work.near, work.by_p, work.by_h
     here, there, along = near[HERE], near[n], n <= WEST
+    film, lines = state.conductance, state.lines
     c = 0.5 * (stencil.cx if along else stencil.cy)
-    if state.south.shape[0] > 0 and not along:
-        c *= state.north[here] if n == NORTH else state.south[here]
-    mine = c * (state.stretch_x[here] if along else state.stretch_y[here])
-    theirs = c * (state.stretch_x[there] if along else state.stretch_y[there])
-    face = mine * state.eps[here] + theirs * state.eps[there]
+    if lines.south.shape[0] > 0 and not along:
+        c *= lines.north[here] if n == NORTH else lines.south[here]
+    mine = c * (film.stretch_x[here] if along else film.stretch_y[here])
+    theirs = c * (film.stretch_x[there] if along else film.stretch_y[there])
+    face = mine * film.eps[here] + theirs * film.eps[there]
     if not along and stencil.arithmetic < 1.0:
-        ratio = sqrt(theirs * state.eps[there] / (mine * state.eps[here]))
-        face = both(stencil, mine * state.eps[here], theirs * state.eps[there])
+        ratio = sqrt(theirs * film.eps[there] / (mine * film.eps[here]))
+        face = both(stencil, mine * film.eps[here], theirs * film.eps[there])
         mine *= ratio + stencil.arithmetic * (1.0 - ratio)
         theirs *= 1.0 / ratio + stencil.arithmetic * (1.0 - 1.0 / ratio)
     drop = state.p[there] - state.p[here]
-    by_p[HERE] += drop * mine * state.eps_p[here] - face
-    by_h[HERE] += drop * mine * state.eps_h[here]
-    by_p[n] += face + drop * theirs * state.eps_p[there]
-    by_h[n] += drop * theirs * state.eps_h[there]
+    by_p[HERE] += drop * mine * film.eps_p[here] - face
+    by_h[HERE] += drop * mine * film.eps_h[here]
+    by_p[n] += face + drop * theirs * film.eps_p[there]
+    by_h[n] += drop * theirs * film.eps_h[there]
 
 
 @helper
@@ -193,7 +208,7 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
         ):
             continue
         _add_face(state, stencil, work, n)
-    if state.speed.shape[0] > 0:
+    if state.lines.speed.shape[0] > 0:
         _add_curved(state, stencil, work)
         return
     first, far, west = near[FAR] == near[WEST], near[FAR], near[WEST]
@@ -213,10 +228,10 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
 @helper
 def _add_curved(state: Coarse, stencil: Stencil, work: Work) -> None:
     """Subtract the derivatives of the wedge where the surfaces spin, of second order at most."""
-    near, nx, ny = work.near, state.drift.shape[0], state.speed.shape[0]
+    near, nx, ny = work.near, state.lines.drift.shape[0], state.lines.speed.shape[0]
     here = near[HERE]
     j, i = here // nx, here % nx
-    u, v = state.speed[j], state.drift[i]
+    u, v = state.lines.speed[j], state.lines.drift[i]
     along, across = -1 if u > 0.0 else 1, -1 if v > 0.0 else 1
     near[FAR] = here + 2 * along if 0 <= i + 2 * along < nx else here
     near[ASIDE] = here + 2 * across * nx if 0 <= j + 2 * across < ny else here

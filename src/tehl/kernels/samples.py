@@ -98,6 +98,7 @@ ISOTHERMAL = (
             **_axes(
                 1,
                 *coarsest.Coarse._fields,
+                *coarsest.Conductance._fields,
                 *coarsest.Work._fields,
                 *("residual", "frozen", "area", "missing"),
             )

@@ -109,8 +109,7 @@ class CoarsestSolver:
             by_h=np.empty(SLOTS),
             dry=np.zeros(nodes, np.uint8),
         )
-        state = Coarse._make(field.ravel() for field in linearised(level))
-        system = self._system()
+        state, system = linearised(level), self._system()
         system = system._replace(influence=level.share.yielding(self.influence))
         count = fill_step(state, level.equations.robust, system, work, nx)
         with one_thread():

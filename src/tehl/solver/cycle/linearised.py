@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.kernels import reynolds
-from tehl.kernels.coarsest import Coarse
+from tehl.kernels.coarsest import Coarse, Conductance, Lines
 from tehl.kernels.properties import Film
 from tehl.solver.cycle.level import Level
 
@@ -44,8 +44,8 @@ def conductance_slopes(level: Level) -> tuple[Array, Array]:
 
 
 def linearised(level: Level) -> Coarse:
-    """Return film and conductance of a level with the derivatives of the conductance."""
-    film, factors = level.film, level.factors
+    """Return film and conductance of a level, flat, with the derivatives of the conductance."""
+    film, factors, columns = level.film, level.factors, level.grid.nx
     by_pressure, by_film = conductance_slopes(level)
     ones = np.ones_like(film.p)
     stretch_x, stretch_y = (
@@ -54,22 +54,23 @@ def linearised(level: Level) -> Coarse:
     if film.across.size:
         stretch_y = stretch_y * film.across
     rho = film.rho * film.opening if film.opening.size else film.rho
+    conductance = Conductance(film.eps, by_pressure, by_film, stretch_x, stretch_y)
     return Coarse(
-        *film[:3],
-        rho=rho,
-        drho=film.drho,
-        eps_p=by_pressure,
-        eps_h=by_film,
-        stretch_x=stretch_x,
-        stretch_y=stretch_y,
-        partial=film.partial,
-        second=film.second,
-        stiffness=film.stiffness,
-        asperity=film.asperity,
-        speed=film.speed,
-        drift=film.drift,
-        south=np.repeat(film.south, film.p.shape[1]),
-        north=np.repeat(film.north, film.p.shape[1]),
+        film.p.ravel(),
+        film.h.ravel(),
+        rho=rho.ravel(),
+        drho=film.drho.ravel(),
+        partial=film.partial.ravel(),
+        second=film.second.ravel(),
+        stiffness=film.stiffness.ravel(),
+        asperity=film.asperity.ravel(),
+        conductance=Conductance._make(one.ravel() for one in conductance),
+        lines=Lines(
+            film.speed,
+            film.drift,
+            south=np.repeat(film.south, columns),
+            north=np.repeat(film.north, columns),
+        ),
     )
 
 
