@@ -37,15 +37,17 @@ def relaxation_of(shape, xi=0.0, omega=(1.0, 1.0), influence=0.0, parts=(0.25, 0
         xi=xi,
         omega_point=omega[0],
         omega_dipole=omega[1],
-        point=relaxation.by_lanes(softer / (1.0 + REACH)),
-        dipole=relaxation.by_lanes(softer / (1.0 + REACH) ** 3),
-        parts=relaxation.by_lanes(of_dipoles),
+        shapes=relaxation.Shapes(
+            point=relaxation.by_lanes(softer / (1.0 + REACH)),
+            dipole=relaxation.by_lanes(softer / (1.0 + REACH) ** 3),
+            parts=relaxation.by_lanes(of_dipoles),
+        ),
+        systems=relaxation.empty_systems(nx),
         kind=np.zeros(shape, np.uint8),
         delta=np.zeros(shape),
         frozen=np.zeros(shape, np.uint8),
         stiffness=np.zeros(shape),
         ends=np.full(shape[0], nx - 1),
-        **dict(zip(("rest", "nodes", "cells"), relaxation.workspace(nx), strict=True)),
     )
 
 
@@ -63,10 +65,10 @@ def test_a_sweep_against_x_is_the_mirror_image_of_one_along_x(drift):
         )
         moved = moved._replace(drift=np.ascontiguousarray(moved.drift))
         settings = relaxation_of(shape, xi=20.0, omega=(0.7, 0.6), influence=0.2)
-        curved = np.array([settings.point[1, :, 0], settings.dipole[1, :, 0]])
-        relaxation.relax_lines(
-            moved, stencil, np.ascontiguousarray(rhs[:, ::way]), settings._replace(curved=curved)
-        )
+        shapes = settings.shapes
+        curved = np.array([shapes.point[1, :, 0], shapes.dipole[1, :, 0]])
+        settings = settings._replace(shapes=shapes._replace(curved=curved))
+        relaxation.relax_lines(moved, stencil, np.ascontiguousarray(rhs[:, ::way]), settings)
         found.append(moved.p[:, ::way])
     assert np.abs(found[0] - film.p).max() > 0.01
     np.testing.assert_allclose(found[1], found[0], rtol=1e-10, atol=1e-12)
@@ -74,7 +76,7 @@ def test_a_sweep_against_x_is_the_mirror_image_of_one_along_x(drift):
 
 def system(nx):
     """The six-diagonal systems of eight lines, as records."""
-    return relaxation.workspace(nx)[1]
+    return relaxation.empty_systems(nx).nodes
 
 
 def values(nodes, field):
@@ -148,8 +150,8 @@ def test_the_band_is_the_derivative_of_the_operator(dipole, parts, mirror):
     setting = relaxation_of(shape, influence=0.4, parts=parts)
     setting.kind[j, 1:-1] = dipole
     set_up(film, stencil, setting, (j, 1), (1, nx - 2))
-    band = dense_band(setting.nodes, 0)
-    shapes = (setting.dipole if dipole else setting.point)[j % 2, :, j // 2]
+    band = dense_band(setting.systems.nodes, 0)
+    shapes = (setting.shapes.dipole if dipole else setting.shapes.point)[j % 2, :, j // 2]
     for k in range(1, nx - 1):
         change = np.zeros(shape)
         change[j, k] = 1.0

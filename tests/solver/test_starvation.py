@@ -67,19 +67,17 @@ def cylinder(centre: float, oil: float, nodes: int, upstream: float) -> tuple[fl
     )
     w0, w1, w2 = 1.5 / dx, -2.0 / dx, 0.5 / dx
     stencil = reynolds.Stencil(1.0 / dx**2, 0.0, w0, w1, w2, 1, reynolds.STEADILY)
-    rest, nodes_, cells = relaxation.workspace(nodes)
+    nothing = relaxation.by_lanes(np.zeros((3, 8)))
     lines = relaxation.LineRelaxation(
         xi=0.0,
         omega_point=1.0,
         omega_dipole=1.0,
-        **dict.fromkeys(("point", "dipole", "parts"), relaxation.by_lanes(np.zeros((3, 8)))),
+        shapes=relaxation.Shapes(nothing, nothing, nothing),
+        systems=relaxation.empty_systems(nodes),
         kind=np.zeros(h.shape, np.uint8),
         delta=np.zeros(h.shape),
         frozen=np.zeros(h.shape, np.uint8),
         stiffness=np.zeros(h.shape),
-        rest=rest,
-        nodes=nodes_,
-        cells=cells,
         ends=np.full(h.shape[0], nodes - 1),
     )
     zero, scratch = np.zeros_like(h), np.zeros((1, nodes))

@@ -67,20 +67,42 @@ ALONG, ASIDE, FROM_SOUTH, FROM_NORTH = range(4)
 NODE = np.dtype([(name, np.float64, (LANES,)) for name in FIELDS])
 
 
-class LineRelaxation(NamedTuple):
-    """Settings and workspace of the line relaxation.
+class Shapes(NamedTuple):
+    """What changes of the pressure do to the film.
 
     ``point`` and ``dipole``: film at distances along a line per unit change of a point and of a
     dipole, of each line (`by_lanes`); ``parts``, of each line: by which its dipoles lower their
     neighbours along x and, in the mean, along y; by which those of the lines south and north lower
-    it. ``kind`` (ny, nx) marks the dipoles; ``delta`` (ny, nx) stores them until both colours are
+    it. ``curved`` (2, n) is the wedge along y of the film of a point and of a dipole, over rho and
+    the drift, where the surfaces spin; lines of negative speed are then solved against x, in their
+    direction.
+    """
+
+    point: Array
+    dipole: Array
+    parts: Array
+    curved: Array = np.zeros((0, 0))
+
+
+class Systems(NamedTuple):
+    """Eight lines that are solved at once.
+
+    ``rest`` (LANES, nx) holds their residuals, ``nodes`` (nx + 6,) their systems as records `NODE`;
+    ``cells`` (nx + 6, FIELDS, LANES) is a view of ``nodes`` as numbers.
+    """
+
+    rest: Array
+    nodes: Records
+    cells: Array
+
+
+class LineRelaxation(NamedTuple):
+    """Settings and workspace of the line relaxation.
+
+    ``kind`` (ny, nx) marks the dipoles; ``delta`` (ny, nx) stores them until both colours are
     done; ``frozen`` (ny, nx) marks nodes of fixed pressure; ``stiffness`` (ny, nx) is the
-    contribution of the change of conductance to the diagonal (`stiffen`). ``rest`` (LANES, nx)
-    holds the residuals of eight lines, ``nodes`` (nx + 6,) their systems as records `NODE`;
-    ``cells`` (nx + 6, FIELDS, LANES) is a view of ``nodes`` as numbers. From node ``ends[j]`` (ny,)
-    on, all of line j is frozen. ``touches`` is 1 with asperities finer than the grid. ``curved``
-    (2, n) is the wedge along y of the film of a point and of a dipole, over rho and the drift,
-    where the surfaces spin; lines of negative speed are then solved against x, in their direction.
+    contribution of the change of conductance to the diagonal (`stiffen`). From node ``ends[j]``
+    (ny,) on, all of line j is frozen. ``touches`` is 1 with asperities finer than the grid.
     ``apart`` is 1 on a roller whose lines are far apart: then it matters to a node what flows to
     the lines beside, not how well they conduct or if they are cavitated, and points have the wedge
     of the deflection from afar, which the systems lack, on their diagonal (docs/theory/rollers.md).
@@ -89,19 +111,14 @@ class LineRelaxation(NamedTuple):
     xi: float
     omega_point: float
     omega_dipole: float
-    point: Array
-    dipole: Array
+    shapes: Shapes
+    systems: Systems
     kind: FlagArray
     delta: Array
     frozen: FlagArray
     stiffness: Array
-    rest: Array
-    nodes: Records
-    cells: Array
     ends: IntArray
-    parts: Array
     touches: int = 0
-    curved: Array = np.zeros((0, 0))
     apart: int = 0
 
 
@@ -115,10 +132,11 @@ def by_lanes(lines: Array) -> Array:
     return found
 
 
-def workspace(nx: int) -> tuple[Array, Records, Array]:
-    """Return ``rest, nodes, cells`` of a `LineRelaxation` for lines of ``nx`` nodes."""
+def empty_systems(nx: int) -> Systems:
+    """Return the systems of lines of ``nx`` nodes."""
     cells = np.zeros((nx + 2 * EMPTY_MARGIN_NODES, len(FIELDS), LANES))
-    return np.zeros((LANES, nx)), cells.reshape(-1).view(NODE).view(np.recarray), cells
+    nodes = cells.reshape(-1).view(NODE).view(np.recarray)
+    return Systems(np.zeros((LANES, nx)), nodes, cells)
 
 
 @helper
@@ -174,7 +192,7 @@ def stiffen(film: Film, stencil: Stencil, flow: FlowTable, out: Array) -> None:
 @helper
 def wet_range(film: Film, relaxation: LineRelaxation, j: int, slot: int) -> Span:
     """Return the first and last node of a line not cavitated or frozen; (nx, 0) if none."""
-    p, frozen, rest, end = film.p, relaxation.frozen, relaxation.rest, relaxation.ends[j]
+    p, frozen, rest, end = film.p, relaxation.frozen, relaxation.systems.rest, relaxation.ends[j]
     low = 1
     while low < end and (frozen[j, low] or (p[j, low] == 0.0 and rest[slot, low] >= 0.0)):
         low += 1
@@ -208,7 +226,12 @@ def _load_node(
     """Copy the fields of a node to a place, record and lane."""
     (j, i), (at, lane), ny = node, place, film.p.shape[0]
     south, north = row_below(j, ny), row_above(j, ny)
-    eps_x, eps_y, cells, rest = film.eps_x, film.eps_y, relaxation.cells, relaxation.rest
+    eps_x, eps_y, cells, rest = (
+        film.eps_x,
+        film.eps_y,
+        relaxation.systems.cells,
+        relaxation.systems.rest,
+    )
     half_x, (half_s, half_n) = 0.5 * stencil.cx, sides(film, stencil, j)
     cells[at, EAST, lane] = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
     across = half_n * both(stencil, eps_y[j, i], eps_y[north, i])
@@ -242,7 +265,7 @@ def _load_curved(
 
     That along y moves with the node: with ``across`` it is part of the diagonal.
     """
-    (j, lane), cells, nx = place, relaxation.cells, film.p.shape[1]
+    (j, lane), cells, nx = place, relaxation.systems.cells, film.p.shape[1]
     size, back = abs(film.speed[j]), is_reversed(film, j)
     for k in range(span[0], span[1]):
         i, at = nx - 1 - k if back else k, k + EMPTY_MARGIN_NODES
@@ -264,7 +287,7 @@ def _load_reversed(
     film: Film, stencil: Stencil, relaxation: LineRelaxation, node: Span, place: Span
 ) -> None:
     """Correct what `_load_node` copied for a line against x: its east is the west."""
-    (j, i), (at, lane), cells = node, place, relaxation.cells
+    (j, i), (at, lane), cells = node, place, relaxation.systems.cells
     west, here = film.eps_x[j, max(i - 1, 0)], film.eps_x[j, i]
     cells[at, EAST, lane] = 0.5 * stencil.cx * both_x(stencil, west, here)
     cells[at, MASS_P, lane] = film.drho[j, i] * film.h[j, i]
@@ -276,7 +299,7 @@ def _load_flux(
     film: Film, stencil: Stencil, relaxation: LineRelaxation, place: Span, span: Span
 ) -> None:
     """Copy the weights of the oil flux at a span of nodes to a lane."""
-    (j, lane), cells, partial, second = place, relaxation.cells, film.partial, film.second
+    (j, lane), cells, partial, second = place, relaxation.systems.cells, film.partial, film.second
     rate, half = stencil.w0 - stencil.w2, 0.5 * stencil.cx
     for i in range(max(span[0], 1), span[1]):
         at, far = i + EMPTY_MARGIN_NODES, max(i - 2, 0)
@@ -309,21 +332,21 @@ def _fill_band(relaxation: LineRelaxation, stencil: Stencil, first: int, i: int)
 
     ``first`` is the first line of the batch.
     """
-    if relaxation.curved.shape[0] > 0:
-        here = relaxation.nodes[i + 3]
+    if relaxation.shapes.curved.shape[0] > 0:
+        here = relaxation.systems.nodes[i + 3]
         weights = here.own, here.upstream, here.farther
-        _fill_row(relaxation, (first, i), weights, relaxation.nodes[i + 2].east)
+        _fill_row(relaxation, (first, i), weights, relaxation.systems.nodes[i + 2].east)
         _add_drift(relaxation, i)
         return
     if stencil.conserves == STEADILY:
-        here = relaxation.nodes[i + 3]
+        here = relaxation.systems.nodes[i + 3]
         weights = here.own, here.upstream, here.farther
         _fill_row(relaxation, (first, i), weights, here.back)
         return
     w0, w1, w2 = stencil.w0, stencil.w1, stencil.w2
     if i == 1:
         w0, w1, w2 = w0 - w2, w1 + 2.0 * w2, 0.0
-    _fill_row(relaxation, (first, i), (w0, w1, w2), relaxation.nodes[i + 2].east)
+    _fill_row(relaxation, (first, i), (w0, w1, w2), relaxation.systems.nodes[i + 2].east)
 
 
 @helper
@@ -353,9 +376,9 @@ def _fill_row(
     west_east : lanes
         Conductance to the west.
     """
-    (first, i), nodes = place, relaxation.nodes
-    p, d = _shape(relaxation.point, first), _shape(relaxation.dipole, first)
-    parts, at = relaxation.parts[first % 2], lanes(first // 2)
+    (first, i), nodes = place, relaxation.systems.nodes
+    p, d = _shape(relaxation.shapes.point, first), _shape(relaxation.shapes.dipole, first)
+    parts, at = relaxation.shapes.parts[first % 2], lanes(first // 2)
     along, aside = parts[ALONG, at], parts[ASIDE, at]
     d0, d1, d2, d3, d4 = d[0] - p[0], d[1] - p[1], d[2] - p[2], d[3] - p[3], d[4] - p[4]
     w0, w1, w2 = weights
@@ -391,7 +414,7 @@ def _fill_row(
 @helper
 def _add_drift(relaxation: LineRelaxation, i: int) -> None:
     """Add the wedge along y of the film that the unknowns of the line move."""
-    nodes, p, d = relaxation.nodes, relaxation.curved[0], relaxation.curved[1]
+    nodes, p, d = relaxation.systems.nodes, relaxation.shapes.curved[0], relaxation.shapes.curved[1]
     farthest, far, west, here, east, beyond = (
         nodes[i], nodes[i + 1], nodes[i + 2], nodes[i + 3], nodes[i + 4], nodes[i + 5]
     )  # fmt: skip
@@ -412,8 +435,8 @@ def _add_asperities(
 
     ``slopes`` are dL/dp times -dp_a/dH at nodes i - 2 .. i + 1; ``place`` as in `_fill_row`.
     """
-    (first, i), nodes = place, relaxation.nodes
-    p, d = _shape(relaxation.point, first), _shape(relaxation.dipole, first)
+    (first, i), nodes = place, relaxation.systems.nodes
+    p, d = _shape(relaxation.shapes.point, first), _shape(relaxation.shapes.dipole, first)
     e_ww, e_w, e_c, e_e = slopes
     farthest, far, west, here, east, beyond = (
         nodes[i], nodes[i + 1], nodes[i + 2], nodes[i + 3], nodes[i + 4], nodes[i + 5]
@@ -521,10 +544,12 @@ def _store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span)
     if is_reversed(film, j):
         for k in range(span[0], span[1]):
             node = j, film.p.shape[1] - 1 - k
-            _store_node(film, relaxation, node, relaxation.cells[k + EMPTY_MARGIN_NODES, U, lane])
+            _store_node(
+                film, relaxation, node, relaxation.systems.cells[k + EMPTY_MARGIN_NODES, U, lane]
+            )
         return
     for i in range(span[0], span[1]):
-        u = relaxation.cells[i + EMPTY_MARGIN_NODES, U, lane]
+        u = relaxation.systems.cells[i + EMPTY_MARGIN_NODES, U, lane]
         _store_node(film, relaxation, (j, i), u)
 
 
@@ -543,7 +568,7 @@ def _residual_of_line(
     film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxation, place: tuple[int, int]
 ) -> None:
     """Write ``rhs - L(p)`` of a line to a row of ``rest``; ``place``: the numbers of both."""
-    (j, slot), rest = place, relaxation.rest
+    (j, slot), rest = place, relaxation.systems.rest
     line_operator(film, stencil, j, rest, (slot, relaxation.ends[j]))
     for i in range(1, relaxation.ends[j]):
         rest[slot, i] = rhs[j, i] - rest[slot, i]
@@ -561,7 +586,7 @@ def set_up(
         for lane in range(count):
             _load_line(film, stencil, relaxation, (first + 2 * lane, lane), (start, stop))
         for lane in range(count, LANES):
-            _leave_out(relaxation.cells, lane, (start, stop))
+            _leave_out(relaxation.systems.cells, lane, (start, stop))
         ready = high if stop == end else stop - EMPTY_MARGIN_NODES
         for i in range(max(start - EMPTY_MARGIN_NODES + 1, low), ready + 1):
             _fill_band(relaxation, stencil, first, i)
@@ -585,7 +610,7 @@ def relax_batch(
     # the range of the unknowns may grow by two nodes upstream and three downstream in each pass
     span = max(low - 2 * PASSES, 1), min(high + 3 * PASSES, nx - 2)
     set_up(film, stencil, relaxation, batch, span)
-    low, high = complementarity(relaxation.nodes, (low, high), nx - 2)
+    low, high = complementarity(relaxation.systems.nodes, (low, high), nx - 2)
     for lane in range(count):
         _store_line(film, relaxation, (first + 2 * lane, lane), (low, high + 1))
 
@@ -620,7 +645,7 @@ def relax_lines(film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxa
 def add_dipoles(film: Film, relaxation: LineRelaxation, mirror: int) -> None:
     """Add the stored dipoles to ``p`` and clip at zero unless asperities carry."""
     p, delta, ends, (ny, nx) = film.p, relaxation.delta, relaxation.ends, film.p.shape
-    parts = relaxation.parts
+    parts = relaxation.shapes.parts
     touches = film.stiffness.shape[0] > 0
     for j in range(0 if mirror else 1, inner_end(ny, mirror)):
         south, north = row_below(j, ny), row_above(j, ny)

@@ -85,7 +85,7 @@ def _sample(kernel: Callable[..., Any], seconds: float, **arrays: Any) -> Sample
 
 _SURFACE = _axes(1, "decay", "older", "newer", "slowness")
 _COMPLEX = np.empty((0, 0), complex)
-_NODES = relaxation.workspace(0)[1]
+_NODES = relaxation.empty_systems(0).nodes
 _SCRATCH = records.scratch(1, records.BLOCK, 1)
 ISOTHERMAL = (
     _sample(

@@ -150,29 +150,25 @@ class LineSmoother:
         parts: tuple[float, float] = (0.25, 0.25),
         curved: Array | None = None,
     ) -> None:
-        shapes = line_shapes(grid, influence, parts, relaxation.lines)
-        point, dipole, of_dipoles = map(kernels.by_lanes, shapes)
+        point, dipole, of_dipoles = map(
+            kernels.by_lanes, line_shapes(grid, influence, parts, relaxation.lines)
+        )
+        shapes = kernels.Shapes(point, dipole, of_dipoles)
         self.frozen = np.zeros(grid.shape, np.uint8)
         self.ends = np.full(grid.shape[0], grid.nx - 1)
         self.stiffness = np.zeros(grid.shape)
-        rest, nodes, cells = kernels.workspace(grid.nx)
         self.workspace = kernels.LineRelaxation(
             xi=relaxation.threshold,
             omega_point=relaxation.point,
             omega_dipole=relaxation.dipole,
-            point=point,
-            dipole=dipole,
+            shapes=shapes if curved is None else shapes._replace(curved=curved),
+            systems=kernels.empty_systems(grid.nx),
             kind=np.zeros(grid.shape, np.uint8),
             delta=np.zeros(grid.shape),
             frozen=self.frozen,
             stiffness=self.stiffness,
-            rest=rest,
-            nodes=nodes,
-            cells=cells,
             ends=self.ends,
-            parts=of_dipoles,
             touches=int(touches),
-            curved=np.zeros((0, 0)) if curved is None else curved,
         )
         self.relaxation, self.is_stiff = relaxation, relaxation.stiff
 

@@ -80,7 +80,8 @@ class TouchingCycle:
         self.number, self.is_balanced = 0, False
         self.neighbours = neighbours_of(grid, self.level.stencil)
         self.oil = LineSmoother(grid, self.level.equations.influence, FIXED_FILM)
-        for film in (self.oil.workspace.point, self.oil.workspace.dipole):
+        shapes = self.oil.workspace.shapes
+        for film in (shapes.point, shapes.dipole):
             film[:] = 0.0
 
     def begin(self) -> None:
