@@ -127,3 +127,21 @@ def test_a_dent_on_a_slender_ellipse_has_more_lines_than_columns(
         across / scales.half_width_y * (ny - 1) / (domain.y[1] - domain.y[0]),
     )
     assert min(cells) >= WAVE_NODES
+
+
+@pytest.mark.parametrize(
+    ("tables", "order"),
+    [
+        ({}, 3),
+        ({"cavitation": {"model": "conserving"}}, 2),
+        ({"contact_film": {"thickness": 1e-8}}, 2),
+    ],
+)
+def test_a_film_that_varies_in_time_has_a_wedge_of_third_order_if_it_follows_the_film(
+    tables: dict, order: int
+) -> None:
+    stated = moes_contact(50.0, 5.0).model_dump(exclude_none=True) | tables
+    stated["transient"] = {"duration": 1e-3, "load": [[0.0, 1.0], [1e-3, 1.2]]}
+    scaled = ScaledProblem.of(ContactProblem.model_validate(stated))
+    assert planned(scaled, Options()).order == order
+    assert planned(scaled, Options(points=129)).order == 2

@@ -20,12 +20,13 @@ def stencil_of(mirror, dx=0.25, dy=0.4, third=False, fore=0):
     weights = 1.5 / dx, -2.0 / dx, 0.5 / dx
     sizes, part = (1.0 / dx**2, 1.0 / dy**2), 0.2 if third else 1.0
     third = 1.0 / (3.0 * dx) if third else 0.0
-    return Stencil(*sizes, *weights, mirror, third=third, fore=fore, arithmetic=part)
+    shape = {"third": third, "fore": fore, "arithmetic": part, "geometric": int(third > 0.0)}
+    return Stencil(*sizes, *weights, mirror, **shape)
 
 
 def means(stencil, first, second, along):
     """Twice the conductance of the faces between two arrays of nodes."""
-    if along and stencil.third == 0.0:
+    if along and not stencil.geometric:
         return first + second
     geometric = 2.0 * np.sqrt(first * second)
     part = np.where(second > first, 1.0 / 3.0, 0.0) if along else stencil.arithmetic

@@ -8,13 +8,15 @@ import pytest
 from tehl.base.typing import Array
 from tehl.contact.options import ROLLER_ENDS, Domain
 from tehl.estimate.grid import Grid
-from tehl.kernels import properties, reynolds
+from tehl.kernels import cavities, properties, reynolds
 from tehl.operators.influence import influence_of, matrix_of
 from tehl.operators.reynolds import (
     line_influence,
     line_shapes,
     of_second_order,
+    steady_flux,
     steady_stencil,
+    steady_wedge,
 )
 from tests.kernels.from_python import from_python
 from tests.operators.contacts import contact_groups, grid_of
@@ -66,6 +68,27 @@ def test_the_poiseuille_term_is_of_second_order(mirror, ratio):
     assert order(lambda n: poiseuille_error(n, mirror=mirror, ratio=ratio)) == pytest.approx(
         2.0, abs=0.1
     )
+
+
+@pytest.mark.parametrize("wedge", [1, 2, 3])
+def test_the_wedge_that_a_film_keeps_in_time_is_that_of_its_operator(wedge):
+    """Of a film that moves along x, against it, and of oil that cavities conserve."""
+    grid = grid_of(9, 21, mirror=False, domain=BOX)
+    h = 1.0 + np.random.default_rng(3).random(grid.shape)
+    inner = (slice(1, -1), slice(1, -1))
+    kept = -apply(grid, {"rho": np.ones(grid.shape), "h": h}, wedge=wedge)[inner]
+    np.testing.assert_allclose(steady_wedge(h, grid, wedge)[inner], kept, rtol=1e-12, atol=1e-10)
+    against = steady_wedge(h[:, ::-1], grid, wedge, backwards=True)[inner]
+    np.testing.assert_allclose(against, -kept[:, ::-1], rtol=1e-12, atol=1e-10)
+    zero, flags = np.zeros(grid.shape), (np.zeros(grid.shape, np.uint8) for _ in range(2))
+    film = properties.Film(zero, h, zero, np.ones(grid.shape), zero, zero, zero, *flags)
+    film = film._replace(layer=np.full(grid.shape[0], np.inf))
+    stencil = steady_stencil(grid, contact_groups(1.0), wedge, conserves=True)
+    cavities.mark_second_order(film, stencil)
+    out = np.empty(grid.shape)
+    reynolds.operator(film, stencil, out)
+    flux = steady_flux(film, h, grid, wedge)[inner]
+    np.testing.assert_allclose(flux, -out[inner], rtol=1e-12, atol=1e-10)
 
 
 def wedge_error(points: int, wedge: int, *, upstream: bool = False) -> float:

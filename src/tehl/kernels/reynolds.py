@@ -39,8 +39,9 @@ class Stencil(NamedTuple):
     or `IN_TIME` if oil is conserved in cavities too. In a time step what a cell holds does not
     depend on the present of others.
     ``third`` is zero, or 1/3 of ``1/dx``: the weight of the third difference that makes a wedge of
-    second order one of third order, with geometric means of the conductance along x. From column
-    ``fore`` on, behind the centre, half of it is added: all of it overshoots at the pressure spike.
+    second order one of third order. From column ``fore`` on, behind the centre, half of it is
+    added: all of it overshoots at the pressure spike. ``geometric`` is 1 where the conductance
+    along x has geometric means: with a wedge of third order, and in the time steps from its film.
     ``arithmetic`` is the part of the arithmetic mean of the conductance along y beside the
     geometric one: a third makes it nearly a logarithmic one. Relaxation keeps the wedge of second
     order, which has the larger diagonal.
@@ -56,6 +57,7 @@ class Stencil(NamedTuple):
     third: float = 0.0
     fore: int = 0
     arithmetic: float = 1.0
+    geometric: int = 0
 
 
 @helper
@@ -96,7 +98,7 @@ def both_x(stencil: Stencil, west: float, east: float) -> float:
     a steep fall of the pressure is met by the logarithmic mean, here within 2 % up to a factor of
     10: (2 sqrt(a b) + (a + b)/2)/3.
     """
-    if stencil.third > 0.0:
+    if stencil.geometric:
         geometric = 2.0 * sqrt(west * east)
         return geometric + (west + east - geometric) / 3.0 if east > west else geometric
     return west + east

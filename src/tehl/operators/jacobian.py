@@ -261,7 +261,7 @@ def _both(stencil: Stencil, here: Array, there: Array, way: int) -> Array:
 
 
 def _is_arithmetic(stencil: Stencil, way: int) -> bool:
-    return stencil.third == 0.0 if way else stencil.arithmetic == 1.0
+    return not stencil.geometric if way else stencil.arithmetic == 1.0
 
 
 def _arithmetic(stencil: Stencil, here: Array, there: Array, way: int) -> Array:

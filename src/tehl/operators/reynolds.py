@@ -14,7 +14,7 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.spin import spin_number
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import CLOSED, IN_TIME, STEADILY, Stencil
+from tehl.kernels.reynolds import CLOSED, IN_TIME, MARK_THIRD_ORDER, STEADILY, Stencil
 from tehl.operators.influence import Influence
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
@@ -69,6 +69,7 @@ def steady_stencil(
         third=speed / (3.0 * grid.dx) if wedge_order > 2 else 0.0,
         fore=int(np.searchsorted(grid.x, 0.0)),
         arithmetic=_arithmetic_part(wedge_order, is_closed=grid.is_closed, oblique=oblique),
+        geometric=int(wedge_order > 2),
     )
 
 
@@ -121,7 +122,9 @@ def conductance(stencil: Stencil, here: Array, there: Array) -> Array:
 def of_second_order(stencil: Stencil) -> Stencil:
     """Return the weights of a wedge of second order at most; means on rollers stay geometric."""
     is_closed = stencil.mirror >= CLOSED
-    return stencil._replace(third=0.0, arithmetic=stencil.arithmetic if is_closed else 1.0)
+    return stencil._replace(
+        third=0.0, arithmetic=stencil.arithmetic if is_closed else 1.0, geometric=0
+    )
 
 
 def step_stencil(stencil: Stencil, time_step: float) -> Stencil:
@@ -130,7 +133,7 @@ def step_stencil(stencil: Stencil, time_step: float) -> Stencil:
     Wedge and squeeze are one derivative of rho H along the mean motion, second-order backward:
     3/2 of rho H here and now, -2 and 1/2 of it one and two steps before at the nodes upstream
     (docs/theory/numerics-transient.md). Only the first is unknown. Its weight is the same on all
-    grids, which take the same time step.
+    grids, which take the same time step. Means of the conductance are those of the steady equation.
 
     Parameters
     ----------
@@ -140,8 +143,7 @@ def step_stencil(stencil: Stencil, time_step: float) -> Stencil:
         Step [a_x / u_m].
     """
     conserves = IN_TIME if stencil.conserves else 0
-    stencil = of_second_order(stencil)
-    return stencil._replace(w0=1.5 / time_step, w1=0.0, w2=0.0, conserves=conserves)
+    return stencil._replace(w0=1.5 / time_step, w1=0.0, w2=0.0, third=0.0, conserves=conserves)
 
 
 def upstream(field: Array, nodes: int) -> Array:
@@ -218,24 +220,39 @@ def cubic_weights(part: float) -> list[float]:
     ]
 
 
-def steady_wedge(mass: Array, spacing: float, order: int) -> Array:
+def steady_wedge(mass: Array, grid: Grid, order: int, *, backwards: bool = False) -> Array:
     """Return the upstream difference of the mass rho H along x, as the steady stencil takes it.
 
     Parameters
     ----------
     mass : (ny, nx) array
         rho H [-].
-    spacing : float
-        Mesh width along x [a_x].
-    order : {1, 2}
+    grid : Grid
+        Its nodes along x.
+    order : {1, 2, 3}
         Order of the difference.
+    backwards : bool
+        Whether the film moves against x.
     """
+    if backwards:
+        return -_wedge_along(mass[:, ::-1], -grid.x[::-1], grid.dx, order)[:, ::-1]
+    return _wedge_along(mass, grid.x, grid.dx, order)
+
+
+def _wedge_along(mass: Array, x: Array, spacing: float, order: int) -> Array:
+    """Return the upstream difference along rising ``x``."""
     if order == 1:
         return (mass - upstream(mass, 1)) / spacing
-    return (1.5 * mass - 2.0 * upstream(mass, 1) + 0.5 * upstream(mass, 2)) / spacing
+    found = (1.5 * mass - 2.0 * upstream(mass, 1) + 0.5 * upstream(mass, 2)) / spacing
+    if order > 2:
+        bent = np.zeros_like(mass)
+        weight = np.where(x < 0.0, 1.0, 0.5)[1:-1] / (3.0 * spacing)
+        bent[:, 1:-1] = weight * np.diff(mass, n=2, axis=1)
+        found[:, 1:-1] += np.diff(bent, axis=1)[:, :-1]
+    return found
 
 
-def steady_flux(film: Film, held: Array, spacing: float, order: int) -> Array:
+def steady_flux(film: Film, held: Array, grid: Grid, order: int) -> Array:
     """Return the difference of the wedge fluxes along x where cavities conserve oil.
 
     As in `tehl.kernels.reynolds`, but with all pressure flows counted where they pass: a partly
@@ -247,19 +264,21 @@ def steady_flux(film: Film, held: Array, spacing: float, order: int) -> Array:
         With ``partial`` and ``second``.
     held : (ny, nx) array
         Oil at each node [-].
-    spacing : float
-        Mesh width along x [a_x].
+    grid : Grid
+        Its nodes along x.
     order : int
         Order of the wedge.
     """
     passed = held.copy()
-    passed[:, 1:] += 0.5 * film.second[:, 1:] * (held[:, 1:] - held[:, :-1])
+    passed[:, 1:] += np.where(film.second[:, 1:] > 0, 0.5, 0.0) * np.diff(held, axis=1)
+    third = np.where(grid.x < 0.0, 1.0, 0.5) / 3.0 * (film.second == MARK_THIRD_ORDER)
+    passed[:, 1:-1] += third[:, 1:-1] * np.diff(held, n=2, axis=1)
     passed = np.where(film.partial > 0, held, passed)
     full = (film.partial[:, 0] == 0) & (film.partial[:, 1] == 0)
     if order > 1:
         passed[full, 0] = 0.5 * (held[full, 0] + held[full, 1])
     difference = np.zeros_like(held)
-    difference[:, 1:] = (passed[:, 1:] - passed[:, :-1]) / spacing
+    difference[:, 1:] = (passed[:, 1:] - passed[:, :-1]) / grid.dx
     return difference
 
 

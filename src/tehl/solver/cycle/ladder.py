@@ -204,7 +204,8 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
         return (STATED[options.smoother],)
     if rough:
         return _between_rough(problem, options)
-    if options.order < 3 or options.wedge_order is not None:
+    is_second = options.order < 3 and not raises_order(problem, options)
+    if is_second or options.wedge_order is not None:
         return _rungs(problem)
     return _with_third_order(scaled, _rungs(problem))
 

@@ -128,7 +128,7 @@ def _dipole_parts(influence: Influence, stencil: Stencil, *, touches: bool) -> t
     if stencil.cy == 0.0:
         return 0.5, 0.0
     ratio = (influence.dx / influence.dy) ** 2
-    if stencil.third == 0.0 and not is_long(stencil, touches=touches):
+    if not stencil.geometric and not is_long(stencil, touches=touches):
         return 0.25, 0.25
     return 0.5 / (1.0 + ratio), 0.5 * ratio / (1.0 + ratio)
 

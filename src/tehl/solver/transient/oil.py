@@ -6,6 +6,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.contact.moment import Moment
+from tehl.estimate.grid import Grid
 from tehl.estimate.schedule import Schedule
 from tehl.operators.reynolds import carried, steady_flux, steady_wedge, upstream
 from tehl.solver.cycle.level import Level
@@ -42,8 +43,7 @@ class Oil:
 
     def _wedge_against(self) -> Array:
         """Return the wedge where the film moves against x."""
-        mirrored = steady_wedge(self.steady[:, ::-1], self.level.grid.dx, self.order)
-        return np.asarray(-mirrored[:, ::-1])
+        return steady_wedge(self.steady, self.level.grid, self.order, backwards=True)
 
     def brought(self, number: int) -> Array:
         """Return the known terms of wedge and squeeze in a step, (ny, nx).
@@ -102,7 +102,7 @@ class Oil:
         stride one of their own.
         """
         self.steady = steady
-        self.wedge = steady_wedge(steady, self.level.grid.dx, self.order)
+        self.wedge = steady_wedge(steady, self.level.grid, self.order)
         self.against = self._wedge_against()
 
 
@@ -111,12 +111,12 @@ def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
     if not level.stencil.conserves:
         mass = level.film.rho * level.film.h
         if level.equations.contact_film is not None:
-            return mass, steady_flux(level.film, mass, level.grid.dx, order)
-        return mass, steady_wedge(mass, level.grid.dx, order)
+            return mass, steady_flux(level.film, mass, level.grid, order)
+        return mass, steady_wedge(mass, level.grid, order)
     held, _ = oil_flow(level)
     for edge in level.grid.edge_rows:  # nothing is solved there
         held[edge] = np.minimum(held[edge], level.film.layer[edge])
-    return held, steady_flux(level.film, held, level.grid.dx, order)
+    return held, steady_flux(level.film, held, level.grid, order)
 
 
 class _Rate:
@@ -174,16 +174,16 @@ class Squeeze(_Rate):
         rho* H of the steady film [-].
     excess : (ny, nx) array or None
         (rho* - rho_e)/rho*; None if it is always zero.
-    step : (float, float, int)
-        Time step [a_x / u_m], mesh width along x [a_x], and mesh widths per step.
+    step : (float, Grid, int)
+        Time step [a_x / u_m], nodes, and mesh widths per step.
     wedge_order : int
-        Order of the upstream difference along x.
+        Order of the upstream difference along x: two at most, as that along the motion.
     """
 
     def __init__(
-        self, mass: Array, excess: Array | None, step: tuple[float, float, int], wedge_order: int
+        self, mass: Array, excess: Array | None, step: tuple[float, Grid, int], wedge_order: int
     ) -> None:
-        (self.time_step, self.spacing, self.stride), self.wedge_order = step, wedge_order
+        (self.time_step, self.grid, self.stride), self.wedge_order = step, min(wedge_order, 2)
         self.steady = mass[:0] if excess is None else excess * mass
         self.begin(np.zeros_like(self.steady))
 
@@ -197,7 +197,7 @@ class Squeeze(_Rate):
         now, last, before = (_part(q, 1) - start for q in (now, last, before))
         fast = 1.5 * now - 2.0 * upstream(last, self.stride)
         fast += 0.5 * upstream(before, 2 * self.stride)
-        along = steady_wedge(now, self.spacing, self.wedge_order)
+        along = steady_wedge(now, self.grid, self.wedge_order)
         return (slow + fast) / self.time_step - along
 
 
@@ -217,23 +217,23 @@ class Lead(_Rate):
     ----------
     lead : (ny, nx) array or None
         q of the steady film [-]; None if it is always zero.
-    spacing, wedge_order : float, int
-        Mesh width along x [a_x], and order of the upstream difference of the steady film.
+    grid, wedge_order : Grid, int
+        Nodes, and order of the upstream difference of the steady film.
     follows : float
         Part of the way to the film of each step by which the q that keeps its own difference goes.
     """
 
     def __init__(
-        self, lead: Array | None, spacing: float, wedge_order: int, follows: float = 0.0
+        self, lead: Array | None, grid: Grid, wedge_order: int, follows: float = 0.0
     ) -> None:
-        self.spacing, self.wedge_order, self.follows = spacing, wedge_order, follows
+        self.grid, self.wedge_order, self.follows = grid, wedge_order, follows
         self.follow(np.zeros((0, 0)) if lead is None else lead)
         self.begin(-self.own)
 
     def follow(self, steady: Array) -> None:
         """Take another q, (ny, nx), as the one that keeps its own difference."""
         self.steady = steady
-        self.own = steady_wedge(steady, self.spacing, self.wedge_order) if steady.size else steady
+        self.own = steady_wedge(steady, self.grid, self.wedge_order) if steady.size else steady
 
     def advance(self) -> None:
         """Accept the present q as the previous one of the next step, and follow it."""
@@ -243,5 +243,5 @@ class Lead(_Rate):
 
     def _rate(self, now: Array) -> Array:
         """Return -dq/dx: the steady film keeps its own difference, the change has a central one."""
-        change = np.gradient(now - self.steady, self.spacing, axis=1)
+        change = np.gradient(now - self.steady, self.grid.dx, axis=1)
         return np.asarray(-self.own - change)

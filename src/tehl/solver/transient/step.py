@@ -101,10 +101,10 @@ class Stepper:
             self.method = self.touching.step
         self.squeeze: Squeeze | Lead
         if varying is not None:
-            lead, spacing = self._lead(), level.grid.dx
-            self.squeeze = Lead(lead, spacing, solver.options.order, self.oil.follows)
+            order = solver.options.order
+            self.squeeze = Lead(self._lead(), level.grid, order, self.oil.follows)
         else:
-            step = (schedule.step, level.grid.dx, transient.stride)
+            step = (schedule.step, level.grid, transient.stride)
             excess = solver.coupling.excess()
             self.squeeze = Squeeze(self.oil.steady, excess, step, solver.options.order)
         self.setting = 0
