@@ -114,9 +114,9 @@ def started(found: Result, options: Options, oil: float) -> TouchingNewton:
     scaled = ScaledProblem.of(found.problem)
     grid, heights = finest_grid(scaled, options), found.heights.together
     level = Hierarchy.on(grid, scaled, options, BESIDE_NEWTON).finest
-    level.heights = heights / scaled.scales.film_thickness
+    level.sources.heights = heights / scaled.scales.film_thickness
     if grid.mirror:
-        level.heights = level.heights[grid.ny // 2 :]
+        level.sources.heights = level.sources.heights[grid.ny // 2 :]
     from_dry_pressure(level, 0.03)
     level.apply_heights(1.0)
     pressure = level.film.p.copy()

@@ -134,7 +134,7 @@ def test_the_contact_of_a_coarser_level_stays_closed_as_its_oil_changes(mirror: 
     free = (dense @ pressed.ravel()).reshape(moved.shape)
     beside = ~touching & (np.roll(touching, -1, axis=1) | np.roll(touching, 1, axis=1))
     assert (exact[beside] < 0.6 * free[beside]).all()  # what a cycle without the answer misses
-    carried = coarse.equations.load.integral(pressed + answer)
+    carried = coarse.equations.balances.integral(pressed + answer)
     assert missing - coarse.missing_load() == pytest.approx(carried, rel=0.05)
 
 
@@ -152,13 +152,13 @@ def test_an_oil_step_is_that_of_newtons_method_where_surfaces_touch(order: int):
     touching, part = contact_of(level.share).touching & (level.film.p > 0.0), 1e-7
     assert touching.sum() > 400
     level.evaluate_residual()
-    before = level.residual.copy()
+    before = level.sources.residual.copy()
     change = oil_step(level, neighbours_of(grid, level.stencil), touching)
     assert (change[~touching] == 0.0).all()
     level.film.p[:] += part * change
     level.update_properties()
     level.evaluate_residual()
-    taken = (before - level.residual)[touching] / part
+    taken = (before - level.sources.residual)[touching] / part
     assert taken == pytest.approx(before[touching], abs=1e-4 * np.abs(before).max())
 
 

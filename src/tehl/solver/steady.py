@@ -278,7 +278,7 @@ def _result(
         scaled=found.fields,
         rigid_approach=level.rigid_approach,
         film_scaled=film_summary(
-            grid, found.fields.film[-grid.shape[0] :], level.equations.contact_film
+            grid, found.fields.film[-grid.shape[0] :], level.equations.solids.contact_film
         ),
         status=attempt.status,
         history=history,

@@ -81,13 +81,13 @@ class CoarsestSolver:
 
     def _system(self) -> CoarseSystem:
         level = self.level
-        laws, answer = level.equations.asperities, level.share.response
+        laws, answer = level.equations.solids.asperities, level.share.response
         return CoarseSystem(
             residual=residual_of(level).ravel(),
             influence=self.influence,
             frozen=level.smoother.frozen.ravel(),
             area=np.repeat(level.grid.widths * level.grid.dx, level.grid.nx),
-            lift=np.repeat(level.equations.modes, level.grid.nx, axis=1)
+            lift=np.repeat(level.equations.balances.modes, level.grid.nx, axis=1)
             * (1.0 if answer is None else answer.lift.ravel()),
             missing=level.missing(),
             yielding=0.0 if answer is None else answer.stiffness,
@@ -137,7 +137,7 @@ class CoarsestSolver:
         part = take_step(state, system, work, known.size, LONGEST_STEP)
         change = part * work.rhs[known.size : used]
         level.move(change)
-        if level.equations.asperities is not None:
+        if level.equations.solids.asperities is not None:
             self._shorten(carried, change)
         moved = np.abs(level.rigid - rigid).max() / max(1.0, np.abs(level.rigid).max())
         return max(float(np.abs(level.pressure - before).max()), float(moved))

@@ -77,7 +77,7 @@ class Roughness:
             points, last = self._points(heights), len(levels) - 1
             self.first = next((k for k in range(1, last) if points[k] >= settings.points), last)
             for level, field in zip(levels[self.first :], fields[self.first :], strict=True):
-                level.heights = field
+                level.sources.heights = field
             self._compare(heights)
 
     def refine(self, heights: Heights | None) -> None:
@@ -86,7 +86,7 @@ class Roughness:
         if heights is None:
             self.first = self.first_comparable = len(self.levels)
             return
-        self.levels[-1].heights = heights.together
+        self.levels[-1].sources.heights = heights.together
         self._compare(heights)
 
     def _points(self, heights: Heights) -> list[float]:
@@ -105,7 +105,7 @@ class Roughness:
         blurred = max((k for k in range(last) if points[k] < BLURRED), default=last)
         for k, level in enumerate(levels[blurred:last], start=blurred):
             part = self.settings.correction if k == blurred else 1.0
-            level.correction = (part, self.settings.limit)
+            level.correction = level.correction._replace(part=part, limit=self.settings.limit)
         # size of the waves in the contact, for the error estimate of a single grid
         finest = levels[-1].grid
         shape = self.levels[-1].equations.groups.shape

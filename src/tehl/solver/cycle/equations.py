@@ -9,6 +9,7 @@
 """
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -33,6 +34,49 @@ FLOOR = 0.02
 """Least film in the conductance, over the expected central film."""
 
 
+class Balances(NamedTuple):
+    """Balances of the load and of its stated moments."""
+
+    load: Load
+    """Integral over the grid."""
+    target: float
+    """Integral of P over the domain [-]."""
+    modes: Array
+    """Film by each rigid motion over its size, (motions, ny): one by the approach, and Y by the
+    tilt of a roller whose moment is stated."""
+    moments: Array
+    """Integral of P times each motion but the approach, (motions - 1,) [-]."""
+
+    def integral(self, field: Array) -> float:
+        """Return the integral of a field over the domain, ``grid.shape`` [-]."""
+        return self.load.integral(field)
+
+    def moments_of(self, pressure: Array) -> Array:
+        """Return the integral of a pressure times each motion but the approach [-]."""
+        return np.array([self.integral(mode[:, None] * pressure) for mode in self.modes[1:]])
+
+
+class Outside(NamedTuple):
+    """The oil beyond the edges of the grid."""
+
+    far_field: Edges | None
+    """Pressure on the edges and load outside; None if the pressure is zero there."""
+    layer: Array | None
+    """Oil that enters each line, ``rho H``, (ny,), infinite if flooded; None if oil is not
+    conserved in cavities."""
+
+
+class Solids(NamedTuple):
+    """What carries load beside the oil."""
+
+    asperities: AsperityTable | None
+    """Laws of asperities finer than the grid; None without."""
+    contact_film: float | None
+    """Boundary film through which the surfaces may touch [-]; None has no contact."""
+    friction: float
+    """Friction coefficient where surfaces touch through it [-]."""
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Equations:
     """The operators on one grid, which do not change while the equations are solved."""
@@ -47,28 +91,14 @@ class Equations:
     """Deflection per unit pressure on one cell."""
     deformation: Deformation
     """The sum K P over all cells."""
-    load: Load
-    """Integral of the pressure."""
-    target: float
-    """Integral of P over the domain [-]."""
-    modes: Array
-    """Film by each rigid motion over its size, (motions, ny): one by the approach, and Y by the
-    tilt of a roller whose moment is stated."""
-    moments: Array
-    """Integral of P times each motion but the approach, (motions - 1,) [-]."""
+    balances: Balances
+    """Of the load and of its stated moments."""
     gap: Array
     """Undeformed gap [-], ``grid.shape``."""
-    far_field: Edges | None
-    """Pressure on the edges and load outside; None if the pressure is zero there."""
-    layer: Array | None
-    """Oil that enters each line, ``rho H``, (ny,), infinite if flooded; None if oil is not
-    conserved in cavities."""
-    asperities: AsperityTable | None
-    """Laws of asperities finer than the grid; None without."""
-    contact_film: float | None
-    """Boundary film through which the surfaces may touch [-]; None has no contact."""
-    friction: float
-    """Friction coefficient where surfaces touch through it [-]."""
+    outside: Outside
+    """The oil beyond the edges."""
+    solids: Solids
+    """What carries load beside the oil."""
     floor: float
     """Least film in the conductance [-]: the discrete film of coarse grids may not be positive."""
     entrainment: Entrainment
@@ -87,12 +117,18 @@ class Equations:
         moment, scaled : Moment, ScaledProblem
             Load, motion and radius; and the contact.
         """
-        target = moment.load * self.groups.shape.load
+        balances = self.balances._replace(target=moment.load * self.groups.shape.load)
         if (moment.speed, moment.curvature) == (scaled.moment.speed, scaled.moment.curvature):
-            return replace(self, target=target)
-        far = self.far_field and far_field(self.grid, scaled.entering, moment.speed)
+            return replace(self, balances=balances)
+        outside = self.outside
+        if outside.far_field is not None:
+            far = far_field(self.grid, scaled.entering, moment.speed)
+            outside = outside._replace(far_field=far)
         return replace(
-            self, target=target, gap=gap(self.grid, self.groups, moment.curvature), far_field=far
+            self,
+            balances=balances,
+            gap=gap(self.grid, self.groups, moment.curvature),
+            outside=outside,
         )
 
     @classmethod
@@ -116,7 +152,9 @@ class Equations:
         """
         groups, oil, moment = scaled.groups, entering_oil(scaled), scaled.moment
         conserves = scaled.problem.conserves_oil
-        starved, film = oil is not None, scaled.problem.contact_film
+        film, far = scaled.problem.contact_film, None
+        if options.has_far_field and oil is None:
+            far = far_field(grid, scaled.entering, moment.speed)
         modes, moments = rigid_motions(grid, groups)
         return cls(
             grid=grid,
@@ -134,20 +172,14 @@ class Equations:
             deformation=choose(
                 options.deformation, grid, groups, exact=options.accuracy == "tight"
             ),
-            load=Load(grid),
-            target=moment.load * groups.shape.load,
-            modes=modes,
-            moments=moments,
+            balances=Balances(Load(grid), moment.load * groups.shape.load, modes, moments),
             gap=gap(grid, groups, moment.curvature),
-            far_field=(
-                far_field(grid, scaled.entering, moment.speed)
-                if options.has_far_field and not starved
-                else None
+            outside=Outside(far, _layer(scaled, oil, grid)),
+            solids=Solids(
+                asperity_table(scaled),
+                contact_film=boundary_film(scaled),
+                friction=0.0 if film is None else film.friction,
             ),
-            layer=_layer(scaled, oil, grid),
-            asperities=asperity_table(scaled),
-            contact_film=boundary_film(scaled),
-            friction=0.0 if film is None else film.friction,
             floor=_floor(scaled),
             entrainment=entrainment(grid, scaled),
         )
@@ -178,14 +210,17 @@ def _layer(scaled: ScaledProblem, oil: EnteringOil | None, grid: Grid) -> Array 
 class Sources:
     """Right-hand sides: f of the Reynolds, g of the film equation, w and m of the balances.
 
-    ``history`` is the contribution of previous films to wedge and squeeze in a time step; f is
-    less by it. ``drift`` is the divergence of what sliding carries beside the mean flow; f is
-    more by it.
+    ``residual`` is what f leaves at the last evaluation, and ``heights`` are those of the surfaces
+    that g has lost. ``history`` is the contribution of previous films to wedge and squeeze in a
+    time step; f is less by it. ``drift`` is the divergence of what sliding carries beside the mean
+    flow; f is more by it.
     """
 
     reynolds: Array
     film: Array
     load: float
     moments: Array
+    residual: Array
+    heights: Array | None = None
     history: Array | None = None
     drift: Array | None = None

@@ -6,6 +6,8 @@ right-hand sides f, g, w of `tehl.solver.cycle.equations` are those of the probl
 those of `tehl.solver.cycle.transfers`.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from tehl.base.typing import Array
@@ -16,6 +18,18 @@ from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Relaxation, make_smoother
 from tehl.solver.physics.cavity import cavity_of
 from tehl.solver.physics.solid_shares import share_of
+
+
+class Correction(NamedTuple):
+    """What a level gives to the next finer grid."""
+
+    part: float
+    """Of the correction that is added [-]."""
+    limit: float
+    """Largest change of a pressure by it, over that pressure [-]."""
+    pressure: Array
+    rigid: Array
+    """P and the rigid motions of the finer grid, restricted: their change since is added."""
 
 
 class Level:
@@ -41,14 +55,10 @@ class Level:
         self.film = self.film._replace(speed=speed, drift=drift, south=south, north=north)
         # of the mean planes: the film itself where no solids carry load
         self.separation = np.zeros(shape) if self.film.asperity.size else h
-        self.rigid = np.zeros(len(equations.modes))
-        self.sources = Sources(f, g, equations.target, equations.moments)
-        self.residual = np.zeros(shape)
-        self.restricted = (np.zeros(shape), self.rigid)
-        self.total = np.zeros(shape)  # pressure of oil and asperities
-        self.heights: Array | None = None
-        # of the correction of the next finer grid: factor, and limit of its relative change of P
-        self.correction = relaxation.correction
+        balances = equations.balances
+        self.rigid = np.zeros(len(balances.modes))
+        self.sources = Sources(f, g, balances.target, balances.moments, np.zeros(shape))
+        self.correction = Correction(*relaxation.correction, np.zeros(shape), self.rigid)
         self.factors: properties.Factors | None = None
         self.is_stale = True
 
@@ -60,7 +70,7 @@ class Level:
     @property
     def far_field(self) -> Edges | None:
         """Pressure on the edges and load outside of the finest level; None if it is zero."""
-        return self.equations.far_field if self.is_finest else None
+        return self.equations.outside.far_field if self.is_finest else None
 
     @property
     def stencil(self) -> reynolds.Stencil:
@@ -128,7 +138,7 @@ class Level:
     @property
     def rigid_film(self) -> Array:
         """Film by the rigid motions, (ny, 1) [-]."""
-        return (self.rigid @ self.equations.modes)[:, None]
+        return (self.rigid @ self.equations.balances.modes)[:, None]
 
     def move(self, change: Array | float) -> None:
         """Change the rigid motions, or the approach alone."""
@@ -137,9 +147,9 @@ class Level:
 
     @property
     def pressure(self) -> Array:
-        """Pressure of oil and asperities together, written anew at each access [-]."""
+        """Pressure of oil and asperities together [-]."""
         film = self.film
-        return np.add(film.p, film.asperity, out=self.total) if film.asperity.size else film.p
+        return film.p + film.asperity if film.asperity.size else film.p
 
     def update(self) -> None:
         """Evaluate film H = H00 + K P + g, conductance and density if they are stale."""
@@ -187,8 +197,8 @@ class Level:
     def apply_heights(self, part: float) -> None:
         """Set g = gap - ``part`` * heights."""
         self.sources.film[:] = self.equations.gap
-        if self.heights is not None:
-            self.sources.film -= part * self.heights
+        if self.sources.heights is not None:
+            self.sources.film -= part * self.sources.heights
         self.is_stale = True
 
     def write_source(self) -> None:
@@ -211,7 +221,8 @@ class Level:
         """Change the settings of the smoother; frozen nodes stay frozen."""
         frozen = self.smoother.frozen
         if self.share.is_steep:
-            self.correction = relaxation.correction
+            part, limit = relaxation.correction
+            self.correction = self.correction._replace(part=part, limit=limit)
         self.smoother = make_smoother(self.equations, relaxation)
         self.smoother.frozen[:] = frozen
 
@@ -229,21 +240,20 @@ class Level:
         """
         self_film = self.equations.influence.self_film
         flow = reynolds.residual(
-            self.film, self.balance, self.sources.reynolds, self_film, self.residual
+            self.film, self.balance, self.sources.reynolds, self_film, self.sources.residual
         )
         return flow + self.share.error(self)
 
     def missing_load(self) -> float:
         """Return w less the integral of P, inside and outside the domain [-]."""
-        inside = self.equations.load.integral(self.pressure)
+        inside = self.equations.balances.integral(self.pressure)
         missing = self.sources.load - self.outside - inside
         return missing + self.share.answered(self)
 
     def missing(self) -> Array:
         """Return what is missing of the load and of its stated moments, (motions,) [-]."""
-        load, pressure = self.equations.load, self.pressure
-        carried = [load.integral(mode[:, None] * pressure) for mode in self.equations.modes[1:]]
-        return np.append(self.missing_load(), self.sources.moments - np.array(carried))
+        carried = self.equations.balances.moments_of(self.pressure)
+        return np.append(self.missing_load(), self.sources.moments - carried)
 
     @property
     def outside(self) -> float:

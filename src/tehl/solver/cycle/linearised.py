@@ -80,6 +80,6 @@ def residual_of(level: Level) -> Array:
     Unlike that of `Level.evaluate_residual` it is not zero at cavitated nodes: a Newton step may
     wet them.
     """
-    residual = np.empty_like(level.residual)
+    residual = np.empty_like(level.sources.residual)
     reynolds.operator(level.film, level.equations.robust, residual)
     return np.subtract(level.sources.reynolds, residual, out=residual)

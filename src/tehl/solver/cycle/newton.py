@@ -88,7 +88,7 @@ class Newton:
         coarse_influence = influence_of(coarse, level.equations.groups)
         self.deflection = matrix_of(coarse, coarse_influence)
         self.load_weights = np.repeat(level.grid.dx * level.grid.widths, level.grid.nx)
-        self.modes = np.repeat(level.equations.modes, level.grid.nx, axis=1)
+        self.modes = np.repeat(level.equations.balances.modes, level.grid.nx, axis=1)
         self.preconditioner: Preconditioner | None = None
 
     def step(self) -> float:

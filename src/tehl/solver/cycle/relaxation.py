@@ -210,7 +210,7 @@ def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
     """
     if relaxation is GAUSS_SEIDEL:
         return PointSmoother(equations.grid, equations.influence, relaxation)
-    settings, touches = relaxation, equations.asperities is not None
+    settings, touches = relaxation, equations.solids.asperities is not None
     apart = is_long(equations.stencil, touches=touches)
     if apart:
         settings = replace(relaxation, threshold=LINE_THRESHOLD * relaxation.threshold)

@@ -18,7 +18,8 @@ Full multigrid starts near the solution, which few neighbours of a study beat.""
 def pose_problem(level: Level) -> None:
     """Set the right-hand sides of a steady problem: f = 0, g = gap - heights, w the load."""
     level.sources.reynolds[:] = 0.0
-    level.sources.load, level.sources.moments = level.equations.target, level.equations.moments
+    balances = level.equations.balances
+    level.sources.load, level.sources.moments = balances.target, balances.moments
     level.is_finest = True
     level.share.stays = False
     level.apply_heights(1.0)
@@ -39,8 +40,10 @@ def pose_step(level: Level, history: Array, heights: Array, equations: Equations
     equations : Equations
         With the load, the gap and the pressure on the edges at the new time.
     """
-    level.sources.history, level.heights, level.equations = history, heights, equations
-    level.sources.load, level.sources.moments = equations.target, equations.moments
+    level.sources.history, level.sources.heights = history, heights
+    level.equations = equations
+    balances = equations.balances
+    level.sources.load, level.sources.moments = balances.target, balances.moments
     level.is_finest = True
     level.apply_heights(1.0)
     level.smoother.frozen[:] = 0

@@ -45,9 +45,8 @@ def restrict_solution(fine: Level, coarse: Level) -> None:
     coarse.is_finest = False
     fine.cavity.inject(fine, coarse)
     # I P and rigid motions: `correct` interpolates the change since
-    before, _ = coarse.restricted
-    before[:] = coarse.film.p
-    coarse.restricted = (before, fine.rigid.copy())
+    coarse.correction.pressure[:] = coarse.film.p
+    coarse.correction = coarse.correction._replace(rigid=fine.rigid.copy())
     coarse.rigid = fine.rigid.copy()
 
 
@@ -71,16 +70,16 @@ def restrict_reynolds(fine: Level, coarse: Level) -> None:
     The residual is zero where the fine grid is cavitated: complementarity holds there.
     """
     fine.cavity.restrict(fine, coarse)
-    transfer.restrict_residual(fine.residual, fine.stencil.mirror, coarse.residual)
+    transfer.restrict_residual(fine.sources.residual, fine.stencil.mirror, coarse.sources.residual)
     reynolds.operator(coarse.film, coarse.stencil, coarse.sources.reynolds)
-    coarse.sources.reynolds += coarse.residual
+    coarse.sources.reynolds += coarse.sources.residual
 
 
 def restrict_load(fine: Level, coarse: Level) -> None:
     """Pose the balances:  w_c = sum(P_c) dx_c dy_c + (w - sum(P) dx dy),  moments alike."""
-    load, pressure = coarse.equations.load, coarse.pressure
-    carried = [load.integral(mode[:, None] * pressure) for mode in coarse.equations.modes]
-    coarse.sources.load, *moments = fine.missing() + np.array(carried)
+    balances, pressure = coarse.equations.balances, coarse.pressure
+    carried = np.append(balances.integral(pressure), balances.moments_of(pressure))
+    coarse.sources.load, *moments = fine.missing() + carried
     coarse.sources.moments = np.array(moments)
 
 
@@ -95,7 +94,7 @@ def correct(fine: Level, coarse: Level) -> None:
     fine, coarse : Level
         The unknowns of the finer one change in place.
     """
-    (before, rigid), (part, limit) = coarse.restricted, coarse.correction
+    part, limit, before, rigid = coarse.correction
     mirror, now = fine.stencil.mirror, coarse.share.changed(coarse)
     transfer.correct(fine.film.p, now, before, mirror, (part, limit, fine.share.lowest))
     fine.cavity.correct(fine, coarse, before, (part, limit))

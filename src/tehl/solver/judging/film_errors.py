@@ -114,7 +114,7 @@ def _hidden_by_contact(scaled: ScaledProblem, level: Level) -> float:
     comes agree. It may be as thick as that of a formula (M = 1731, L = 9, boundary film over that
     0.76: 65 and 97 nodes have the boundary film everywhere, 385 a film thicker by a tenth).
     """
-    least, alone = level.equations.contact_film, expected_central_film(scaled.entering)
+    least, alone = level.equations.solids.contact_film, expected_central_film(scaled.entering)
     if least is None:
         return 0.0
     if scaled.problem.supply is not None:
@@ -131,7 +131,7 @@ def _by_grids(
     if len(traces) < 2 or not traces[-1].reports or traces[-1].diverged:
         return None
     edges, domain = level.grid.domain, 0.0
-    if level.equations.far_field is not None:
+    if level.equations.outside.far_field is not None:
         domain = far_field_error(scaled.entering, edges) + entry_error(scaled, edges)
         domain += spin_error(scaled)
     expected = _expected_bar(hierarchy, level)

@@ -63,7 +63,7 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     found |= level.share.parts(level)
     if level.equations.groups.shape.as_line:
         found |= line_rolling(level, scaled)
-    if level.heights is not None:
+    if level.sources.heights is not None:
         ripple_film, ripple_pressure = ripples(level.grid.x, level.grid.y, level.film.h, pressure)
         found |= {"ripple_film": ripple_film, "ripple_pressure": ripple_pressure}
     if state is None and scaled.problem.is_coupled:  # a coarse grid, still isothermal
@@ -93,7 +93,9 @@ def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
         if speed:
             found[name] = mid_film_traction(level, scaled, state, part=part)
             wet = mid_film_stress(level, scaled, state, part) * wet_part(level.film.p)
-            inside = level.equations.load.integral(wet * zone_of(level.grid, scaled.groups.skew))
+            inside = level.equations.balances.integral(
+                wet * zone_of(level.grid, scaled.groups.skew)
+            )
             if inside:  # not if all oil is cavitated
                 found[f"{name}_tail"] = abs(beside(level.grid, wet, scaled.groups.skew) / inside)
     return found
@@ -126,7 +128,7 @@ def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
     tilt = tilt_of(level)
     if tilt is not None:
         return known | {"tilt": tilt}
-    moment = level.equations.load.integral(grid.centres[:, None] * level.pressure)
+    moment = level.equations.balances.integral(grid.centres[:, None] * level.pressure)
     return known | {"tilting": moment}
 
 
@@ -140,7 +142,7 @@ def tilt_of(level: Level) -> float | None:
 
 def film_numbers(level: Level) -> dict[str, float]:
     """Return ``film_central`` and ``film_minimum`` between the nodes [-]."""
-    film = film_summary(level.grid, level.film.h, level.equations.contact_film)
+    film = film_summary(level.grid, level.film.h, level.equations.solids.contact_film)
     return {"film_central": film.central, "film_minimum": film.minimum}
 
 
@@ -223,7 +225,7 @@ def ends_of(level: Level) -> tuple[int, ...]:
 def solid_friction(level: Level) -> float:
     """Return the friction of the solids while they slide, over the load [-]."""
     rubbing = level.share.rubbing(level)
-    stress = 0.0 if rubbing is None else level.equations.load.integral(rubbing[0])
+    stress = 0.0 if rubbing is None else level.equations.balances.integral(rubbing[0])
     return stress / level.sources.load
 
 
@@ -294,7 +296,7 @@ def mid_film_traction(
     wet = stress * zone_of(level.grid, scaled.groups.skew) * wet_part(level.film.p)
     area = scales.half_width_x * scales.half_width_y
     unit = stress_unit(scales) * area / (scales.load * load)
-    return level.equations.load.integral(wet) * unit
+    return level.equations.balances.integral(wet) * unit
 
 
 def _rises(state: FilmState) -> dict[str, float]:

@@ -178,10 +178,10 @@ def film_contact(level: Level, scaled: ScaledProblem) -> FilmContact | None:
     scaled : ScaledProblem
         With the Hertz pressure [Pa].
     """
-    if level.equations.contact_film is None:
+    if level.equations.solids.contact_film is None:
         return None
     solids = level.film.asperity
-    if level.equations.asperities is not None:
+    if level.equations.solids.asperities is not None:
         solids = np.where(level.share.meets(level), solids, 0.0)
     pressure = level.grid.unfold(solids * scaled.scales.hertz_pressure)
     return FilmContact(pressure=pressure, balance=np.array(contact_balance(level)))
@@ -216,7 +216,7 @@ def asperity_balance(level: Level) -> float:
 def _largest_mass_error(level: Level) -> float:
     """Return the largest mass-balance error upstream of any section, as rho H [-]."""
     level.evaluate_residual()
-    made = np.cumsum(_line_weights(level.grid) @ level.residual) * level.grid.dx
+    made = np.cumsum(_line_weights(level.grid) @ level.sources.residual) * level.grid.dx
     return float(np.abs(made).max())
 
 

@@ -180,7 +180,7 @@ def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     The error of its minimum counts relative to the smooth film.
     """
     level = run.finest
-    if level.equations.contact_film is None and not is_film(level, errors):
+    if level.equations.solids.contact_film is None and not is_film(level, errors):
         return _no_film_status(run, errors)
     if errors is None:
         return CONVERGED
@@ -351,9 +351,9 @@ def _oil_status(run: FilmSolver) -> Status:
     A film that carries all converges by its residual.
     """
     level = run.finest
-    if level.equations.asperities is not None:
+    if level.equations.solids.asperities is not None:
         missing = asperity_balance(level)
-    elif level.equations.contact_film is not None:
+    elif level.equations.solids.contact_film is not None:
         missing = contact_balance(level)
     else:
         return CONVERGED

@@ -179,7 +179,7 @@ def oil_step(level: Level, neighbours: Neighbours, where: BoolArray) -> Array:
     change: Array = np.zeros(film.p.size)
     with warnings.catch_warnings(action="ignore", category=MatrixRankWarning):
         matrix = csc_matrix(by_pressure[:, nodes])
-        change[nodes] = spsolve(matrix, level.residual.ravel()[nodes])
+        change[nodes] = spsolve(matrix, level.sources.residual.ravel()[nodes])
     return change.reshape(film.p.shape)
 
 

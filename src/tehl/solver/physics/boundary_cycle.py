@@ -121,7 +121,7 @@ class TouchingCycle:
         if share.touching.any():
             indented = self._pressed(np.ones(level.grid.shape), RESPONSE_ACCURACY)
             level.equations.deformation.deflect(indented, lift)
-            stiffness, pressure = level.equations.load.integral(indented), level.film.p.copy()
+            stiffness, pressure = level.equations.balances.integral(indented), level.film.p.copy()
             share.response = Response(1.0 - lift, stiffness, level.rigid_approach, pressure)
         return indented
 
@@ -245,4 +245,4 @@ class TouchingCycle:
     def _oil_residual(self) -> float:
         """Return the sum of the residuals of the Reynolds equation where surfaces touch [-]."""
         self.level.evaluate_residual()
-        return float(np.abs(self.level.residual[self.share.touching]).sum())
+        return float(np.abs(self.level.sources.residual[self.share.touching]).sum())

@@ -94,7 +94,7 @@ class TouchingSystem:
 
         Oil that cavitates loses its pressure, and so does a contact that opens.
         """
-        level, least = self.level, self.level.equations.contact_film or 0.0
+        level, least = self.level, self.level.equations.solids.contact_film or 0.0
         oil = np.where(self.free, 0.0, -level.film.p.ravel())
         oil[~(self.operators.neighbours.here.diagonal() > 0.0)] = 0.0  # edges keep their pressure
         total = np.where(self.touching, 0.0, oil - level.film.asperity.ravel())

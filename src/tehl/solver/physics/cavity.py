@@ -41,7 +41,6 @@ class Wetted(Protocol):
     film: Film
     sources: Sources
     smoother: Smoother
-    residual: Array
     share: OilAlone
     is_finest: bool
     is_stale: bool
@@ -174,7 +173,7 @@ class Conserving(ZeroPressure):
 
     def restrict(self, fine: Wetted, coarse: Wetted) -> None:
         """Keep the residuals of nodes whose coarse neighbour is cavitated."""
-        transfer.keep_residual(fine.residual, coarse.film.p, fine.stencil.mirror)
+        transfer.keep_residual(fine.sources.residual, coarse.film.p, fine.stencil.mirror)
 
     def correct(
         self, fine: Wetted, coarse: Wetted, before: Array, taken: tuple[float, float]
@@ -233,4 +232,6 @@ def secant(film: Film) -> Film:
 
 def cavity_of(equations: Equations) -> ZeroPressure:
     """Return the cavities of a level by its equations."""
-    return ZeroPressure() if equations.layer is None else Conserving(equations.layer)
+    return (
+        ZeroPressure() if equations.outside.layer is None else Conserving(equations.outside.layer)
+    )

@@ -288,7 +288,7 @@ def _load_weights(level: Level) -> Array:
     along, across = np.ones(grid.shape[1]), np.full(grid.shape[0], 2.0 if grid.mirror else 1.0)
     along[[0, -1]] = 0.5
     across[[0, -1]] *= 0.5
-    return np.asarray(level.equations.load.area * np.outer(across, along).ravel())
+    return np.asarray(level.equations.balances.load.area * np.outer(across, along).ravel())
 
 
 def _ends_first(number: int) -> list[int]:

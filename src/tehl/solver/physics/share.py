@@ -127,7 +127,7 @@ class OilAlone:
         # on coarser levels the pressure has the answer too, as well as these resolve the contact
         pressed = (1.0 - found.lift) * (level.film.p - found.pressure) + self.answer(level)
         risen = found.stiffness * (level.rigid_approach - found.approach)
-        return self.equations.load.integral(pressed) + risen
+        return self.equations.balances.integral(pressed) + risen
 
     def follow_response(self, finer: "OilAlone", level: Carried) -> None:
         """Take the response of a finer level, from the present state on."""

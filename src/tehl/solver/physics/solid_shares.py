@@ -81,7 +81,7 @@ class Summits(OilAlone):
 
     def parts(self, level: Carried) -> dict[str, float]:
         """Return the part of the load on asperities [-]."""
-        carried = self.equations.load.integral(level.film.asperity)
+        carried = self.equations.balances.integral(level.film.asperity)
         return {"load_share": carried / level.sources.load}
 
     def rubbing(self, level: Carried) -> tuple[Array, Array] | None:
@@ -340,7 +340,7 @@ class BoundaryContact(OilAlone):
 
     def parts(self, level: Carried) -> dict[str, float]:
         """Return the parts of the load where the surfaces touch, and on asperities elsewhere."""
-        load, (film, meets) = self.equations.load, (level.film, self.meets(level))
+        load, (film, meets) = self.equations.balances.load, (level.film, self.meets(level))
         touching = load.integral(np.where(meets, film.p + film.asperity, 0.0))
         found = {"contact_share": touching / level.sources.load}
         if isinstance(self.beneath, Summits):
@@ -353,7 +353,9 @@ class BoundaryContact(OilAlone):
         film, meets = level.film, self.meets(level)
         apart = self.beneath.rubbing(level)
         elsewhere = np.zeros(film.p.shape) if apart is None else apart[0]
-        stress = np.where(meets, self.equations.friction * (film.p + film.asperity), elsewhere)
+        stress = np.where(
+            meets, self.equations.solids.friction * (film.p + film.asperity), elsewhere
+        )
         return stress, np.where(meets, 0.0, 1.0)
 
     def widening(self, level: Carried) -> Array:
@@ -367,7 +369,7 @@ class BoundaryContact(OilAlone):
 
     def start(self, level: Carried, expected_film: float) -> None:
         """Start as without contact, or dry where the oil that enters fills no boundary film."""
-        grid, layer = self.equations.grid, self.equations.layer
+        grid, layer = self.equations.grid, self.equations.outside.layer
         if layer is None or layer.max() > self.boundary.film:
             self.beneath.start(level, expected_film)
             return
@@ -380,7 +382,7 @@ class BoundaryContact(OilAlone):
 
 def share_of(equations: Equations) -> OilAlone:
     """Return the share of a level by its equations."""
-    table, least = equations.asperities, equations.contact_film
+    table, least = equations.solids.asperities, equations.solids.contact_film
     beneath = OilAlone(equations) if table is None else Summits(equations, table)
     return beneath if least is None else BoundaryContact(equations, least, beneath)
 

@@ -36,7 +36,7 @@ class Oil:
         self.fastest = max(abs(one.speed) for one in schedule.moments)
         self.steady, self.wedge = _steady_oil(level, order)
         varies = any(one != schedule.moments[0] for one in schedule.moments)
-        if varies and not level.stencil.conserves and level.equations.contact_film is None:
+        if varies and not level.stencil.conserves and level.equations.solids.contact_film is None:
             self.follows = min(schedule.step / FOLLOWING_TIME, 1.0)
         self.against = self._wedge_against()
         self.now, self.before = self.steady.copy(), self.steady.copy()
@@ -110,7 +110,7 @@ def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
     """Return oil and upstream difference of its flux in a steady film, (ny, nx) each [-]."""
     if not level.stencil.conserves:
         mass = level.film.rho * level.film.h
-        if level.equations.contact_film is not None:
+        if level.equations.solids.contact_film is not None:
             return mass, steady_flux(level.film, mass, level.grid, order)
         return mass, steady_wedge(mass, level.grid, order)
     held, _ = oil_flow(level)

@@ -43,7 +43,7 @@ heights, a frame pressure, film and height, and the stress at mid-film if the ca
 
 def carried(level: Level) -> Array:
     """Return the pressure of the oil; with that of the contact through a boundary film, if any."""
-    return level.film.p if level.equations.contact_film is None else level.pressure
+    return level.film.p if level.equations.solids.contact_film is None else level.pressure
 
 
 @dataclass(slots=True)
@@ -83,7 +83,7 @@ class Record:
         stress : array or None
             At mid-film, stored with them [-].
         """
-        film = film_summary(level.grid, level.film.h, level.equations.contact_film)
+        film = film_summary(level.grid, level.film.h, level.equations.solids.contact_film)
         row = numbers | {
             "film_central": film.central,
             "film_minimum": film.minimum,

@@ -96,7 +96,7 @@ class Stepper:
             cycle, levels, solver.hierarchy.coarsest.step, TRANSFERS, SHAPE
         )
         self.touching: TouchingCycle | None = None
-        if level.equations.contact_film is not None:
+        if level.equations.solids.contact_film is not None:
             self.touching = TouchingCycle(levels, self.method)
             self.method = self.touching.step
         self.squeeze: Squeeze | Lead
