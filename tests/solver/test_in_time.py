@@ -200,7 +200,7 @@ def test_oil_keeps_nothing_of_a_film_that_has_left(stride):
         film=film,
         grid=SimpleNamespace(dx=spacing, x=x - 2.5),
         stencil=SimpleNamespace(conserves=0),
-        equations=SimpleNamespace(contact_film=None),
+        equations=SimpleNamespace(solids=SimpleNamespace(contact_film=None)),
         cavity=SimpleNamespace(held=lambda _: film.h),
     )
     step, (first, later) = stride * spacing, (Moment(), Moment(load=1.5))
