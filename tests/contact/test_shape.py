@@ -116,3 +116,15 @@ def test_a_dry_line_is_that_of_hertz():
     assert contact.pressure == pytest.approx(modulus * contact.half_width_x / (4 * radius))
     again = LINE.load_of_pressure(contact.pressure, Radii(x=radius, y=math.inf), modulus)
     assert again == pytest.approx(load)
+
+
+@pytest.mark.parametrize(
+    ("shape", "radii"), [(CIRCLE, Radii(x=0.01, y=0.01)), (TURNED, None), (LINE, AXES)]
+)
+def test_the_dry_contact_grows_as_that_of_hertz(shape, radii):
+    radii = radii or AXES.turned(math.radians(30))
+    after = Radii(x=radii.x / 2.2, y=radii.y / 2.2, twist=2.2 * radii.twist)
+    one, other = shape.hertz(100.0, radii, 2e11), shape.hertz(35.0, after, 2e11)
+    width, pressure = shape.grown(0.35, 2.2)
+    assert other.half_width_x == pytest.approx(width * one.half_width_x, rel=1e-9)
+    assert other.pressure == pytest.approx(pressure * one.pressure, rel=1e-9)

@@ -148,6 +148,15 @@ def test_the_film_after_a_reversal_is_the_mirror_image():
     assert run.history.film_minimum.min() < 0.7 * run.history.film_minimum[0]
 
 
+def test_a_run_starts_from_the_dry_contact_of_its_first_moment():
+    """From that of its case, of three times the load, the first grid alone took 40 cycles."""
+    case = line(36, 8, transient={"duration": 0.05 * UNIT, "load": "0.333", "radius": "0.465"})
+    start = solve_transient(case, Options(points=257, tolerance=1e-6)).start
+    first = [one for one in start.history if one.points[0] == start.history[0].points[0]]
+    assert abs(first[0].load_error) < 0.05
+    assert len(start.history) < 20
+
+
 def test_oil_is_conserved_through_a_reversal():
     """What the cells hold changes by what passes the edges, step by step."""
     turn = {"entrainment_speed": [[0.5 * UNIT, 1.0], [2.5 * UNIT, -1.0]], "duration": 4.0 * UNIT}

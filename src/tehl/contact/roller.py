@@ -138,6 +138,11 @@ class Roller(Line):
         share = np.maximum(self.share(y), 1e-6)
         return share * LINE.dry_gap(x / np.sqrt(share), 0.0 * y)
 
+    def grown(self, load: float, curvature: float) -> tuple[float, float]:
+        """Return the same width: which part of its profile is loaded follows from no power."""
+        del curvature
+        return 1.0, load
+
     def hertz(self, load: float, radii: Radii, modulus: float) -> HertzContact:
         """Return the line contact under the mean load."""
         line = LINE.hertz(load / self.length, radii, modulus)

@@ -58,6 +58,15 @@ class Shape(Protocol):
     def dry_gap(self, x: Array, y: Array) -> Array:
         """Return the gap H of the dry contact [-] at X, Y that broadcast; zero in the contact."""
 
+    def grown(self, load: float, curvature: float) -> tuple[float, float]:
+        """Return half-width and largest pressure of the dry contact at another moment [-].
+
+        Parameters
+        ----------
+        load, curvature : float
+            Load and 1/R_x there; all four are over those of this contact.
+        """
+
     def hertz(self, load: float, radii: Radii, modulus: float) -> HertzContact:
         """Return the dry contact under a load [N], for reduced radii [m] and E' [Pa]."""
 
@@ -189,6 +198,11 @@ class Ellipse:
         cosine, sine = np.cos(angle) ** 2, np.sin(angle) ** 2
         return gap * end / (np.pi * np.mean(cosine / np.sqrt(k2 * cosine + sine)))
 
+    def grown(self, load: float, curvature: float) -> tuple[float, float]:
+        """Return half-width and pressure: load ~ p b^2, and deflection p b ~ gap c b^2."""
+        width = math.cbrt(load / curvature)
+        return width, curvature * width
+
     def hertz(self, load: float, radii: Radii, modulus: float) -> HertzContact:
         """Return the dry contact."""
         if radii.twist:
@@ -257,6 +271,11 @@ class Line:
         """
         x = np.maximum(np.abs(x), 1.0)
         return 0.5 * (x * np.sqrt(x**2 - 1.0) - np.arccosh(x)) + 0.0 * y
+
+    def grown(self, load: float, curvature: float) -> tuple[float, float]:
+        """Return half-width and pressure: load ~ p b, and deflection p b ~ gap c b^2."""
+        width = math.sqrt(load / curvature)
+        return width, curvature * width
 
     def hertz(self, load: float, radii: Radii, modulus: float) -> HertzContact:
         """Return the dry contact under a load per length [N/m]; its approach is not known."""

@@ -134,7 +134,9 @@ def dry_pressure(grid: Grid, groups: Groups) -> Array:
     return groups.shape.dry_pressure(grid.x[None, :], grid.y[:, None])
 
 
-def start_pressure(grid: Grid, groups: Groups) -> Array:
+def start_pressure(
+    grid: Grid, groups: Groups, load: float | None = None, curvature: float = 1.0
+) -> Array:
     """Return the dry pressure to start from: that of a wider contact if no node would carry it.
 
     The domain of a rigid contact (M < 1) is hundreds of half-widths long. Without any pressure a
@@ -146,18 +148,27 @@ def start_pressure(grid: Grid, groups: Groups) -> Array:
         Nodes X, Y in Hertz half-widths.
     groups : Groups
         Shape of the contact.
+    load : float or None
+        Integral of the pressure at the moment of the start [-]; None is that of the contact.
+    curvature : float
+        1/R_x at that moment, over that of the contact [-].
 
     Returns
     -------
     array of ``grid.shape``
         Carries the load, if it is wider, on half-widths of `START_CELLS` cells [-].
     """
+    shape = groups.shape
+    load = shape.load if load is None else load
+    width, highest = shape.grown(load / shape.load, curvature)
     cell = max(grid.dx, grid.dy if grid.ny > 1 else 0.0)
-    if groups.roller is not None or not START_CELLS * cell > 1.0:
-        return dry_pressure(grid, groups)
-    wide = 1.0 / (START_CELLS * cell)
-    found = groups.shape.dry_pressure(wide * grid.x[None, :], wide * grid.y[:, None])
-    return found * (groups.shape.load / Load(grid).integral(found))
+    if groups.roller is not None:
+        return highest * dry_pressure(grid, groups)
+    x, y = grid.x[None, :], grid.y[:, None]
+    if not START_CELLS * cell > width:
+        return highest * shape.dry_pressure(x / width, y / width)
+    found = shape.dry_pressure(x / (START_CELLS * cell), y / (START_CELLS * cell))
+    return found * (load / Load(grid).integral(found))
 
 
 @lru_cache(maxsize=8)

@@ -22,6 +22,7 @@ from tehl.estimate.spin import spin_number
 from tehl.estimate.starvation import EnteringOil, entering_oil, supplied_film
 from tehl.kernels import reynolds
 from tehl.operators.deformation import Deformation, choose
+from tehl.operators.dry import start_pressure
 from tehl.operators.far_field import Edges, far_field
 from tehl.operators.film import gap, rigid_motions
 from tehl.operators.flow import FlowTable
@@ -75,6 +76,8 @@ class Solids(NamedTuple):
     """Boundary film through which the surfaces may touch [-]; None has no contact."""
     friction: float
     """Friction coefficient where surfaces touch through it [-]."""
+    curvature: float
+    """1/R_x at this moment over that of the contact [-]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -104,6 +107,11 @@ class Equations:
     entrainment: Entrainment
     """Mean speeds of the surfaces where they spin, without elements where they do not."""
 
+    def start_pressure(self) -> Array:
+        """Return the dry pressure of this moment to start from, ``grid.shape`` [-]."""
+        load, curvature = self.balances.target, self.solids.curvature
+        return start_pressure(self.grid, self.groups, load, curvature)
+
     @property
     def robust(self) -> reynolds.Stencil:
         """Weights on the coarser grids of a cycle: a wedge of second order at most."""
@@ -129,6 +137,7 @@ class Equations:
             balances=balances,
             gap=gap(self.grid, self.groups, moment.curvature),
             outside=outside,
+            solids=self.solids._replace(curvature=moment.curvature),
         )
 
     @classmethod
@@ -179,6 +188,7 @@ class Equations:
                 asperity_table(scaled),
                 contact_film=boundary_film(scaled),
                 friction=0.0 if film is None else film.friction,
+                curvature=moment.curvature,
             ),
             floor=_floor(scaled),
             entrainment=entrainment(grid, scaled),

@@ -12,7 +12,7 @@ import numpy as np
 
 from tehl.base.typing import Array, BoolArray, FlagArray
 from tehl.kernels.properties import Factors, Film
-from tehl.operators.dry import dry_motions, start_pressure
+from tehl.operators.dry import dry_motions
 from tehl.operators.transfer import injected
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Smoother
@@ -187,7 +187,7 @@ class OilAlone:
     def start(self, level: Carried, expected_film: float) -> None:
         """Start from the Hertz pressure, with the rigid approach of the expected central film."""
         grid, groups = self.equations.grid, self.equations.groups
-        level.set_state(start_pressure(grid, groups), dry_motions(grid, groups), 0.0)
+        level.set_state(self.equations.start_pressure(), dry_motions(grid, groups), 0.0)
         level.update()
         level.move(expected_film - central_value(grid, level.separation))
 

@@ -14,7 +14,7 @@ from tehl.contact.boundary_contact import TOUCHING_MARGIN
 from tehl.kernels import summits, transfer
 from tehl.kernels.properties import Film
 from tehl.operators.deformation import Flattening
-from tehl.operators.dry import dry_motions, dry_pressure, start_pressure
+from tehl.operators.dry import dry_motions, dry_pressure
 from tehl.operators.summits import AsperityTable
 from tehl.operators.transfer import midpoints
 from tehl.solver.cycle.equations import Equations
@@ -112,7 +112,7 @@ class Summits(OilAlone):
         """
         middle = self.table.separation(expected_film)
         grid, groups = self.equations.grid, self.equations.groups
-        level.set_state(start_pressure(grid, groups), dry_motions(grid, groups), 0.0)
+        level.set_state(self.equations.start_pressure(), dry_motions(grid, groups), 0.0)
         if self.table.pressure(middle) <= LARGEST_SHARE_FROM_HERTZ:
             level.update()
         else:
