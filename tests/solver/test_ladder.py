@@ -23,6 +23,7 @@ from tehl.solver.cycle.ladder import (
     BETWEEN_ROUGH,
     COUPLED,
     STARVED_DAMPING,
+    TOUCHING,
     UNCOMBINED,
     UNDAMPED,
     Strategy,
@@ -36,6 +37,7 @@ from tehl.solver.monitor import SILENT
 from tests.reference import heated_contact, moes_contact
 from tests.solver.rough import wavy
 from tests.solver.test_line import line
+from tests.solver.test_touching import through_film
 
 OPTIONS = Options(extrapolate=True)
 NODES = 193
@@ -313,10 +315,13 @@ def test_a_film_too_thin_for_coarse_grids_converges_by_small_steps_of_relaxation
     assert [one.relaxation is THIN for one in ladder(less, options, rough=False)[:3]] == [0, 0, 1]
 
 
-def test_rough_contacts_fall_back_to_a_wedge_of_second_order_unless_nodes_or_order_are_stated():
-    scaled = ScaledProblem.of(wavy((200.0, 6.0), (0.1, 1.0, 0.0)))
+@pytest.mark.parametrize(("touches", "rungs"), [(False, BETWEEN_ROUGH), (True, TOUCHING)])
+def test_rough_contacts_fall_back_to_a_wedge_of_second_order_unless_nodes_or_order_are_stated(
+    touches: bool, rungs: tuple[Strategy, ...]
+) -> None:
+    problem = wavy((200.0, 6.0), (0.1, 1.0, 0.0))
+    scaled = ScaledProblem.of(through_film(problem, 0.01) if touches else problem)
     orders = [one.wedge_order for one in ladder(scaled, Options(), rough=True)]
-    assert orders[:2] == [None, None]
-    assert orders[2:] == [2] * len(BETWEEN_ROUGH)
+    assert orders == [None, None, *(2 for _ in rungs)]
     for stated in (Options(points=129), Options(wedge_order=3)):
-        assert ladder(scaled, stated, rough=True) == BETWEEN_ROUGH
+        assert ladder(scaled, stated, rough=True) == rungs

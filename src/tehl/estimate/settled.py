@@ -54,9 +54,9 @@ def raises_order(problem: ContactProblem, options: Options) -> bool:
     """
     is_free = options.points == "auto" and options.wedge_order is None
     in_time = problem.transient is not None
-    raises = not problem.conserves_oil if in_time else problem.is_rough
-    is_plain = problem.contact_film is None and not problem.contact.has_lines
-    return is_free and raises and is_plain
+    touches = problem.contact_film is not None
+    raises = not (problem.conserves_oil or touches) if in_time else problem.is_rough or touches
+    return is_free and raises and not problem.contact.has_lines
 
 
 def _between_ends(problem: ContactProblem, options: Options) -> Options:

@@ -199,7 +199,8 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
     if problem.contact_film is not None:
         # Newton's method linearises neither partly filled cavities nor asperities below the grid
         by_cycles = problem.conserves_oil or problem.asperities is not None
-        return TOUCHING[:-1] if by_cycles else TOUCHING
+        rungs = TOUCHING[:-1] if by_cycles else TOUCHING
+        return _of_third_order_first(problem, options, TOUCHING[:-1], rungs)
     if options.smoother != "auto":
         return (STATED[options.smoother],)
     if rough:
@@ -216,11 +217,22 @@ def _between_rough(problem: ContactProblem, options: Options) -> tuple[Strategy,
     cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
     # and their Jacobian lacks partly filled cavities
     rungs = cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
+    return _of_third_order_first(problem, options, cycles[:THIRD_ORDER_STRATEGIES], rungs)
+
+
+def _of_third_order_first(
+    problem: ContactProblem,
+    options: Options,
+    cycles: tuple[Strategy, ...],
+    rungs: tuple[Strategy, ...],
+) -> tuple[Strategy, ...]:
+    """Return ``rungs``, of second order behind ``cycles`` of third where the order is raised.
+
+    Between high waves cycles with third order do not converge, nor do Newton steps.
+    """
     if not raises_order(problem, options):
         return rungs
-    # between high waves cycles with third order do not converge, nor do Newton steps
-    second = (replace(one, wedge_order=2) for one in rungs)
-    return (*cycles[:THIRD_ORDER_STRATEGIES], *second)
+    return (*cycles, *(replace(one, wedge_order=2) for one in rungs))
 
 
 def _with_third_order(scaled: ScaledProblem, rungs: tuple[Strategy, ...]) -> tuple[Strategy, ...]:
