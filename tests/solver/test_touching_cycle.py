@@ -221,6 +221,15 @@ def test_a_wedge_of_third_order_finds_the_film_between_summits_on_fewer_nodes():
     assert third.touching.share == 0.0
 
 
+def test_the_bar_of_a_film_that_touches_is_not_that_of_third_order_alone():
+    """Where surfaces touch the wedge is of first order: that bar is 0.8 of the error."""
+    _, _, problem = any_contacts.contact(63, 12, tables_at_once=True)
+    coarse, fine = (solve(problem, Options(points=n, wedge_order=3)) for n in (129, 257))
+    off = abs(fine.film.central / coarse.film.central - 1.0)
+    assert 0.0 < coarse.touching.share < 1.0
+    assert off < 0.8 * coarse.errors.central
+
+
 def test_oil_before_a_patch_is_corrected_by_coarser_grids():
     """On them the contact answers to it; else the patch spreads over twice the load, and stalls."""
     _, _, problem = any_contacts.contact(1, 15, tables_at_once=True)

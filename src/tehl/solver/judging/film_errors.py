@@ -156,6 +156,8 @@ def _by_grids(
     is_scarce = scaled.problem.supply is not None
     is_limited = not is_scarce or scaled.groups.ellipticity >= LIMITED_RATIO
     is_limited &= scaled.problem.thermal is None or scaled.groups.L <= HOT_SPEED
+    # where surfaces touch the wedge is of first order
+    is_limited &= scaled.problem.contact_film is None
     most = MOST_EXPECTED * expected if expected and is_limited else math.inf
     traits = replace(traits, most=most, thinnest=_thinnest(level), scarce=is_scarce)
     combined = bool(hierarchy.options.extrapolate) and traces[-2:] == compared[-2:]
