@@ -42,8 +42,9 @@ def raises_order(problem: ContactProblem, options: Options) -> bool:
     As its steady smooth film has. Two grids of second order that resolve the heights differ by much
     of the error of the film: of 47 random contacts four more reach 2 %, and most take less time. In
     time the film that keeps its own wedge follows the present one (`tehl.solver.transient.oil`): 65
-    nodes err as 257 of second order do. Where it does not, as of conserved oil, and where boundary
-    contact bounds the fluxes, they have other orders.
+    nodes err as 257 of second order do. Where it does not, as of conserved oil and boundary films,
+    the order stays two. A steady film with boundary contact has the geometric means of the
+    conductance that belong to that wedge, and its fluxes keep second order.
 
     Parameters
     ----------
