@@ -1,6 +1,7 @@
 """Line contacts with heat, thinning, scarce oil, asperities, waves and loads that change."""
 
 import math
+import re
 
 import numpy as np
 import pandas as pd
@@ -8,6 +9,7 @@ import pytest
 from pydantic import ValidationError
 
 import tehl
+from tehl.cli.text import as_text
 from tehl.contact.options import Options
 from tests.solver.test_line import BOX, CITED, line
 
@@ -41,6 +43,9 @@ def hot(sliding: float, sources: str = "line") -> tehl.ContactProblem:
 def test_heat_is_that_of_another_program():
     found, cited = tehl.solve(hot(0.5), Options(points=513, domain=BOX)), CITED["heated"]
     summary = found.summary()
+    words = as_text(found)
+    for power in ("friction loss .* in the film, of one metre", "which take .* W of one metre"):
+        assert re.search(power, words)
     assert found.film_scaled.central == pytest.approx(cited["h_central"], rel=1e-3)
     assert found.film_scaled.minimum == pytest.approx(cited["h_minimum"], rel=1e-3)
     rise = summary["temperature"]["mid_film_rise_central_k"]
