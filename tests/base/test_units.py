@@ -76,6 +76,8 @@ def test_a_string_with_a_unit_becomes_si(kind: object, text: object, value: floa
         ("80 mm", "unit of a length"),
         ("80 foo", "unknown unit 'foo'"),
         ("80 N/", "unknown unit"),
+        ("80 N / 2", "has a calculation .* work it out"),
+        ("-2 * 40 N", "has a calculation .* work it out"),
         ("80 (N", "bracket"),
         ("80 N)", "unreadable unit"),
         ("80 N ^", "exponent"),

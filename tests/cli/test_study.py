@@ -148,7 +148,7 @@ def test_a_folder_takes_one_run_at_a_time(folder, run):
     with locked(folder / "out"):
         done = run("loads.toml", "-o", "out", "--jobs", "1")
     assert done.code == 3
-    assert "another tehl study runs in out: wait until it ends" in done.err
+    assert "another run of tehl writes into out: wait until it ends" in done.err
     assert done.err.count("\n") == 1
     assert names(folder / "out") == ["study.lock"]
     assert run("loads.toml", "-o", "out", "--jobs", "1").code == 1

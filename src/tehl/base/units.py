@@ -124,6 +124,8 @@ def _product(
         if not (operator or name):
             fault = "a bracket left open in its" if "(" in plain else "an unreadable"
             raise ValueError(f"has {fault} unit {text!r}")
+        if operator and name.isdigit() and name not in units:
+            raise ValueError(f"has a calculation {text!r} after its number: work it out")
         if name not in units or (operator and place == 0):
             raise ValueError(f"has an unknown unit {name or text!r}")
         if power is not None and not re.fullmatch(r"[+-]?\d", power):

@@ -201,8 +201,8 @@ def _lock(file: IO[bytes], folder: Path) -> None:
     except OSError as error:
         if error.errno in (errno.EAGAIN, errno.EACCES):
             raise OSError(
-                f"another tehl study runs in {folder}: wait until it ends, or take another "
-                "folder with -o"
+                f"another run of tehl writes into {folder}: wait until it ends, or take another "
+                "output with -o"
             ) from None
 
 
