@@ -304,9 +304,29 @@ def test_a_line_contact_has_one_radius_of_the_bodies_or_reduced():
     reduced = {"type": "line", "hertz_pressure": "1 GPa", "entrainment_speed": 1.0}
     by_pressure = ContactProblem.model_validate(ball_tables(contact=reduced | {"radius": 0.02}))
     assert by_pressure.hertz.pressure == pytest.approx(1e9, rel=1e-12)
-    for radii in ({"radius_x": 0.02, "radius_y": 1.0}, {}):
-        with pytest.raises(ValidationError, match="radius"):
+    with pytest.raises(ValidationError, match="radius is missing"):
+        ContactProblem.model_validate(ball_tables(contact=reduced))
+    pair = {"radius_x": 0.02, "radius_y": 1.0}
+    for radii in (pair, {"radius_x": 0.02}, {"radius": 0.02} | pair):
+        with pytest.raises(ValidationError, match=r"radius_x.*: a line contact takes radius"):
             ContactProblem.model_validate(ball_tables(contact=reduced | radii))
+
+
+@pytest.mark.parametrize(
+    "stated",
+    [
+        {"thermal_resistance": 5.0},
+        {"cooling": {"body": "half-space", "track_radius": 0.02}},
+    ],
+)
+def test_the_body_of_a_line_contact_has_no_resistance_from_its_track(stated):
+    contact = {"type": "line", "load_per_length": "100 N/mm", "entrainment_speed": 1.0}
+    surface = {"material": "steel"} | stated
+    tables = ball_tables(contact=contact | {"radius": 0.02}, surface_2=surface, thermal={})
+    tables["lubricant"] = "mineral-oil"
+    key = rf"surface_2\.{next(iter(stated))}"
+    with pytest.raises(ValidationError, match=rf'contact.type = "line" and {key} exclude each'):
+        ContactProblem.model_validate(tables)
 
 
 def test_velocities_state_entrainment_and_sliding_by_size_and_direction():

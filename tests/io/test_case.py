@@ -48,6 +48,7 @@ MISTAKES = [
     ("lubricant.viscosity.alfa=3", "lubricant.viscosity.alfa is not a known key", "alpha"),
     ("contact.width=10 mm", "contact.width is not a known key", 'type = "line"'),
     ("contact.line_load=1e5", "contact.line_load", "did you mean load_per_length?"),
+    ("contact.radius_1=1 mm", "contact.radius_1 is not", "did you mean surface_1.radius?"),
     ("contact.type=line", "states load", "a line contact takes load_per_length"),
     ("contact.type=cone", "contact.type", "known are point, line"),
     ("contact.load_per_length=100 N", "has the unit of a force", '"200 N/mm"'),

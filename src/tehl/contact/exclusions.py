@@ -115,6 +115,12 @@ def check_line(problem: PointContact) -> None:
         supply.track is not None or (contact.is_line and supply.profile is not None)
     )
     profile = "profile, " if contact.is_line else ""
+    computed = [
+        f"surface_{index}.{key}"
+        for index, surface in enumerate(problem.surfaces, 1)
+        for key in ("thermal_resistance", "cooling")
+        if getattr(surface, key) is not None
+    ]
     excluded = {
         "supply": (
             aside,
@@ -122,8 +128,8 @@ def check_line(problem: PointContact) -> None:
             "ratio",
         ),
         "thermal": (resting, "a surface at rest has no steady temperature under a line of heat"),
-        "cooling": (
-            problem.computes_bodies,
+        " and ".join(computed): (
+            bool(computed),
             "its track has no width; state the temperature of the body",
         ),
         "stress": (

@@ -45,11 +45,17 @@ class _WithRadii(Table):
 
     @model_validator(mode="after")
     def _radii_must_agree(self) -> Self:
-        if self.radius is not None and (self.radius_x, self.radius_y) != (None, None):
+        if (self.radius_x, self.radius_y) == (None, None):
+            return self
+        self._check_pair()
+        if self.radius is not None:
             raise ValueError("takes either radius or the pair radius_x and radius_y")
         if (self.radius_x is None) != (self.radius_y is None):
             raise ValueError(f"needs both radius_x and radius_y{self.FLAT}")
         return self
+
+    def _check_pair(self) -> None:
+        """Check that radii along and across the entrainment apply."""
 
     @property
     def radii(self) -> Radii | None:
@@ -157,10 +163,13 @@ class ContactShape(_WithRadii):
     """Moment of the load of a roller about x [N m], positive if positive y carries more, in place
     of the tilt, which then follows; zero aligns the roller."""
 
+    def _check_pair(self) -> None:
+        if self.has_lines:
+            stated = " and ".join(self._stated("radius_x", "radius_y"))
+            raise ValueError(f"states {stated}: a {self.type} contact takes radius")
+
     @model_validator(mode="after")
     def _must_have_its_shape(self) -> Self:
-        if self.has_lines and self.radius_x is not None:
-            raise ValueError(f"states radius_x and radius_y: a {self.type} contact takes radius")
         if self.type == "roller":
             self._check_roller()
         elif stated := self._stated("length", "profile", "tilt", "tilting_moment", "ends"):
@@ -246,6 +255,10 @@ class Contact(LoadedContact):
             'normal of the contact, such as "300 rpm"?',
         ),
         "diameter": "did you mean radius, half of it?",
+        "radius_1": "radii of [contact] are those of both surfaces together; did you mean "
+        "surface_1.radius?",
+        "radius_2": "radii of [contact] are those of both surfaces together; did you mean "
+        "surface_2.radius?",
     }
     synonyms: ClassVar = {
         "load": "force normal_load normal_force weight w f",
@@ -256,8 +269,8 @@ class Contact(LoadedContact):
         "sliding_angle": "slip_angle sliding_direction skew_angle",
         "spin_1": "omega_1 spin_speed_1",
         "spin_2": "omega_2 spin_speed_2",
-        "radius_x": "rx r_x radius_1",
-        "radius_y": "ry r_y radius_2",
+        "radius_x": "rx r_x",
+        "radius_y": "ry r_y",
         "radius": "r",
         "entrainment_angle": "angle entrainment_direction theta",
         "length": "effective_length l_we roller_length",
