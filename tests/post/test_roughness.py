@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from tehl.api.problem import ContactProblem
+from tehl.api.solvers import solve
 from tehl.base.errors import InputError
 from tehl.contact.heat import Thermal
+from tehl.contact.options import Options
 from tehl.estimate.film_formulas import lubrication
 from tehl.io.store import load_summary, save
 from tehl.io.summary import from_block, roughness_block
@@ -19,10 +21,19 @@ from tehl.post.micro_film import (
     smooth_reference,
     typical_wavelength,
 )
-from tehl.post.roughness import area_below, film_histogram, film_in_contact, ripples, rough_film
+from tehl.post.roughness import (
+    area_below,
+    film_histogram,
+    film_in_contact,
+    ripples,
+    rough_film,
+    weighted_quantiles,
+)
+from tehl.post.stress.loads import on_even_lines
 from tehl.post.thermal_effect import ThermalEffect
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_rough import AMPLITUDE, CARRIED, LEFT, PRESSURE, WAVELENGTH, make_rough
+from tests.solver.test_roller import roller
 
 
 def test_sq_is_that_of_the_heights_in_the_contact(rough):
@@ -61,8 +72,26 @@ def test_quantiles_and_areas_are_those_of_the_film_in_the_contact(rough):
     found, film = rough_film(rough), film_in_contact(rough)
     for part, level in found.quantiles:
         assert area_below(rough, level) == pytest.approx(part, abs=1e-3)
-    assert found.below_composite == np.mean(film < found.composite)
+    assert found.below_composite == pytest.approx(np.mean(film < found.composite), rel=1e-12)
     assert area_below(rough, np.inf) == 1.0
+
+
+def test_lines_that_crowd_do_not_weigh_more():
+    """A crowned roller whose lines crowd where its load ends: the film is thin there."""
+    profile = {"shape": "crown", "radius": "6 m"}
+    smooth = solve(roller(20.0, profile=profile), Options(points=(129, 65)))
+    steps = np.diff(smooth.y)
+    assert steps.max() > 3.0 * steps.min()
+    even = on_even_lines(smooth)
+    for level in (0.8, 0.9, 1.1):
+        part = area_below(smooth, level * smooth.film.central)
+        assert part == pytest.approx(area_below(even, level * smooth.film.central), abs=0.02)
+
+
+def test_equal_weights_give_the_quantiles_of_numpy():
+    values, parts = np.random.default_rng(3).normal(size=50), (0.01, 0.3, 0.5, 0.99)
+    found = weighted_quantiles(values, np.full(50, 0.2), parts)
+    assert found == pytest.approx(np.quantile(values, parts))
 
 
 def test_the_histogram_holds_the_contact(rough):

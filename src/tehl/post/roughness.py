@@ -11,6 +11,7 @@ from tehl.estimate.film_formulas import Lubrication, likely_film, lubrication, l
 from tehl.post.boundary_contact import touching
 from tehl.post.film import no_film
 from tehl.post.summits import load_sharing
+from tehl.post.traction import cell_widths
 from tehl.post.waves.response import FIT_HALF_WIDTH, WaveResponse, wave_notes, wave_responses
 from tehl.result.solution import Solution
 from tehl.roughness.resolution import Resolution
@@ -110,7 +111,9 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
         composite = finer
     if no_film(result) or not composite > _SMOOTH:
         return None
-    film = film_in_contact(result)
+    film, areas = film_in_contact(result), areas_in_contact(result)
+    films = tuple(map(float, weighted_quantiles(film, areas, QUANTILES)))
+    (median,) = weighted_quantiles(film, areas, (0.5,))
     formula = likely_film(result.scaled_problem).central_m
     central = result.film.central if result.heights is None else middle_film(result)
     scaled, (row, column) = result.scaled, result.scaled.centre
@@ -123,9 +126,9 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
         lambda_central=central / composite,
         lambda_minimum=result.film.minimum / composite,
         lambda_by_formula=formula / composite,
-        quantiles=tuple(zip(QUANTILES, map(float, np.quantile(film, QUANTILES)), strict=True)),
+        quantiles=tuple(zip(QUANTILES, films, strict=True)),
         below_composite=area_below(result, composite),
-        below_half=area_below(result, 0.5 * float(np.median(film))),
+        below_half=area_below(result, 0.5 * float(median)),
         minimum_at=result.film_scaled.minimum_at,
         largest_pressure=float(result.scaled.pressure.max()),
         ripple_film=ripple_film * result.scales.film_thickness,
@@ -228,8 +231,30 @@ def in_contact(result: Solution, reach: float = 1.0) -> BoolArray:
 
 
 def film_in_contact(result: Solution) -> Array:
-    """Return the film at all nodes in the Hertz contact, each for the same area, (n,) [m]."""
+    """Return the film at all nodes in the Hertz contact, (n,) [m]; see `areas_in_contact`."""
     return result.film_thickness[in_contact(result)]
+
+
+def areas_in_contact(result: Solution) -> Array:
+    """Return the areas that these nodes stand for, (n,) [m^2]: lines of rollers may crowd."""
+    cells = np.outer(cell_widths(result.y), cell_widths(result.x))
+    return np.asarray(cells[in_contact(result)])
+
+
+def weighted_quantiles(values: Array, weights: Array, parts: Sequence[float]) -> Array:
+    """Return the values below which lie given parts of the weight, linear between the values.
+
+    Parameters
+    ----------
+    values, weights : (n,) array
+        Equal weights give `numpy.quantile`.
+    parts : sequence of float
+        From 0 to 1.
+    """
+    order = np.argsort(values)
+    below = np.cumsum(weights[order]) - 0.5 * weights[order]
+    below -= below[0]
+    return np.interp(parts, below / max(below[-1], 1e-300), values[order])
 
 
 def area_below(result: Solution, threshold: float) -> float:
@@ -238,11 +263,12 @@ def area_below(result: Solution, threshold: float) -> float:
     Parameters
     ----------
     result : Solution
-        Counted by its nodes in the Hertz ellipse.
+        By the areas of its nodes in the Hertz ellipse.
     threshold : float
         Film thickness [m].
     """
-    return float(np.mean(film_in_contact(result) < threshold))
+    areas, thin = areas_in_contact(result), film_in_contact(result) < threshold
+    return float(areas[thin].sum() / areas.sum())
 
 
 def film_histogram(result: Solution, bins: int | Sequence[float] = 60) -> tuple[Array, Array]:
@@ -260,12 +286,12 @@ def film_histogram(result: Solution, bins: int | Sequence[float] = 60) -> tuple[
     (n + 1,) array, (n,) array
         Edges [m], and the part of the contact in each bin by its width [1/m].
     """
-    film = film_in_contact(result)
+    film, areas = film_in_contact(result), areas_in_contact(result)
     if isinstance(bins, int):
-        top = float(np.quantile(film, 0.995))
+        (top,) = weighted_quantiles(film, areas, (0.995,))
         bins = np.linspace(min(0.0, float(film.min())), top, bins + 1).tolist()
-    counts, edges = np.histogram(film, bins=bins)
-    return edges, counts / (film.size * np.diff(edges))
+    parts, edges = np.histogram(film, bins=bins, weights=areas / areas.sum())
+    return edges, parts / np.diff(edges)
 
 
 def _ripples(axis: Array, film: Array) -> Ripples:
