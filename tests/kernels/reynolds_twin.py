@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from tehl.kernels.faces import Stencil
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import Stencil
 
 
 def isotropic(p, h, eps, rho, drho):

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from tehl.kernels import properties, relaxation, reynolds
+from tehl.kernels.faces import CLOSED, Stencil
 from tehl.kernels.lanes import LANES
 from tehl.kernels.relaxation import LineRelaxation
-from tehl.kernels.reynolds import CLOSED, Stencil
 from tests.kernels.from_python import from_python
 from tests.kernels.reynolds_twin import isotropic, operator_twin, random_film, stencil_of
 
@@ -317,9 +317,37 @@ def test_the_stiffness_of_a_hollow_is_the_slope_of_the_flow_into_it(mirror):
         flows.append(out[3, 4])
     properties.properties(film, flow, 0.0)
     stiffness = np.empty_like(p)
-    relaxation.stiffen(film, stencil, flow, stiffness)
+    relaxation.stiffen(film, stencil, flow, 1, stiffness)
     assert stiffness[3, 4] == pytest.approx((flows[0] - flows[1]) / (2 * nudge), rel=1e-2)
     assert (stiffness >= 0.0).all()
+
+
+@pytest.mark.parametrize("steps", [(1.0, 0.0), (1.0, 1.0)], ids=["one side", "both sides"])
+def test_the_stiffness_between_lines_of_a_roller_is_the_slope_of_the_flow_between_them(steps):
+    """What flows from a line of high pressure follows the conductance of the lower one."""
+    step, decay, shape = 1e-3, 12.0, (7, 8)
+    rows = np.arange(4001) * step
+    mobility, ones = np.exp(-decay * rows), np.ones_like(rows)
+    mobility = np.stack([mobility, -decay * step * mobility], axis=1)
+    flow = properties.FlowTable(mobility, np.stack([ones, 0.0 * ones], axis=1), step)
+    stencil = stencil_of(CLOSED)._replace(cx=0.0, arithmetic=1.0 / 3.0)
+    p, h = np.full(shape, 0.3), np.geomspace(1.0, 8.0, 7)[:, np.newaxis] + np.zeros(shape)
+    p[2] += steps[0]
+    p[4] += steps[1]
+    fields = (np.empty_like(p) for _ in range(3))
+    film, flows, nudge = isotropic(p, h, *fields), [], 1e-5
+    for sign in (-1.0, 1.0):
+        moved, out = p.copy(), np.empty_like(p)
+        moved[3, 4] += sign * nudge
+        properties.properties(film._replace(p=moved), flow, 0.0)
+        reynolds.operator(film, stencil, out)
+        flows.append(out[3, 4])
+    properties.properties(film, flow, 0.0)
+    stiffness = np.empty_like(p)
+    relaxation.stiffen(film, stencil, flow, 0, stiffness)
+    assert stiffness[3, 4] == pytest.approx((flows[0] - flows[1]) / (2 * nudge), rel=1e-3)
+    relaxation.stiffen(film, stencil._replace(cx=1e3), flow, 0, stiffness)
+    assert stiffness[3, 4] == pytest.approx((flows[0] - flows[1]) / (2 * nudge), rel=1e-3)
 
 
 def test_a_stiff_node_moves_by_less():

@@ -8,7 +8,8 @@ import pytest
 from tehl.base.typing import Array
 from tehl.contact.options import ROLLER_ENDS, Domain
 from tehl.estimate.grid import Grid
-from tehl.kernels import cavities, properties, reynolds
+from tehl.kernels import cavities, faces, properties, reynolds
+from tehl.kernels.faces import Stencil
 from tehl.operators.influence import influence_of, matrix_of
 from tehl.operators.reynolds import (
     line_influence,
@@ -21,8 +22,15 @@ from tehl.operators.reynolds import (
 from tests.kernels.from_python import from_python
 from tests.operators.contacts import contact_groups, grid_of
 
-both, both_x, row_below, row_above = map(
-    from_python, (reynolds.both, reynolds.both_x, reynolds.row_below, reynolds.row_above)
+both, both_x, opening_power, row_below, row_above = map(
+    from_python,
+    (
+        faces.both,
+        faces.both_x,
+        faces.opening_power,
+        reynolds.row_below,
+        reynolds.row_above,
+    ),
 )
 BOX = Domain(x=(-2.0, 2.0), y=(-1.5, 1.5))
 
@@ -119,15 +127,38 @@ def test_the_conductance_of_a_face_is_a_geometric_or_a_logarithmic_mean(factor):
     assert rising == pytest.approx(exact, rel=0.02)
 
 
-@pytest.mark.parametrize("wedge", [1, 2, 3])
-def test_lines_of_a_roller_conduct_to_each_other_by_geometric_means_on_all_grids(wedge):
+def closed_stencil(wedge: int) -> Stencil:
+    """Return the weights on a roller."""
     ends = Domain.model_construct(x=(-3.4, 1.5), y=ROLLER_ENDS)
-    closed, open_ = (
-        steady_stencil(grid_of(33, 33, mirror=True, domain=one), contact_groups(), wedge)
-        for one in (ends, BOX)
+    return steady_stencil(grid_of(33, 33, mirror=True, domain=ends), contact_groups(), wedge)
+
+
+def between_lines(stencil: Stencil, here: tuple[float, float], there: tuple[float, float]) -> float:
+    """Return the conductance between two lines, each with its mobility and film."""
+    eps = [mobility * film**3 for mobility, film in (here, there)]
+    return 0.5 * both(stencil, *eps, opening_power(stencil, here[1], there[1]))
+
+
+@pytest.mark.parametrize("wedge", [1, 2, 3])
+def test_films_of_lines_of_a_roller_conduct_by_their_geometric_mean_on_all_grids(wedge):
+    closed = closed_stencil(wedge)
+    for one in (closed, of_second_order(closed)):
+        assert between_lines(one, (1.0, 1.0), (1.0, 20.0)) == pytest.approx(20.0**1.5)
+    open_ = steady_stencil(grid_of(33, 33, mirror=True, domain=BOX), contact_groups(), wedge)
+    assert between_lines(of_second_order(open_), (1.0, 1.0), (1.0, 20.0)) == pytest.approx(4000.5)
+
+
+@pytest.mark.parametrize("opening", [1.0, 5.0])
+def test_oil_flows_out_of_a_line_of_a_roller_the_faster_the_larger_its_pressure(opening):
+    """By a geometric mean of all it would not beyond 2/alpha: two pressures have one flow."""
+    falls = np.linspace(0.0, 12.0, 49)  # alpha times the fall of the pressure
+    stencil = closed_stencil(2)
+    flows = np.array(
+        [fall * between_lines(stencil, (np.exp(-fall), 1.0), (1.0, opening)) for fall in falls]
     )
-    assert 0.5 * both(of_second_order(closed), 1.0, 1e4) == pytest.approx(100.0)
-    assert 0.5 * both(of_second_order(open_), 1.0, 1e4) == pytest.approx(5000.5)
+    assert (np.diff(flows) > 0.0).all()
+    exact = opening**1.5 * -np.expm1(-falls)  # that of a pressure linear between the lines
+    assert flows[falls < 2.4] == pytest.approx(exact[falls < 2.4], rel=0.02)
 
 
 @pytest.mark.parametrize("wedge", [1, 2, 3])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl.kernels.reynolds import CLOSED
+from tehl.kernels.faces import CLOSED
 from tehl.kernels.transfer import restrict_pressure
 from tehl.operators.transfer import refine
 from tests.operators.contacts import grid_of

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tehl import ContactProblem, ConvergenceError, Options, Result, solve
+from tehl.contact.options import ROLLER_ENDS, Domain
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels import reynolds
@@ -29,10 +30,11 @@ from tehl.solver.cycle.newton import (
     limited,
 )
 from tehl.solver.cycle.relaxation import ROUGH
-from tehl.solver.cycle.start import pose_problem
+from tehl.solver.cycle.start import from_dry_pressure, pose_problem
 from tehl.solver.judging.convergence import DivergedError
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.rough import wavy
+from tests.solver.test_roller import roller
 
 POINTS = 65
 
@@ -95,6 +97,36 @@ def test_the_jacobian_is_the_derivative_of_the_operator(
         errors.append(np.abs(numeric - linear).max() / np.abs(linear).max())
     assert errors[1] < 1e-5
     assert errors[1] < 0.1 * errors[0] + 1e-6
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+def test_the_jacobian_of_a_roller_is_the_derivative_of_the_operator(mirror: bool) -> None:
+    """What lines conduct to each other depends on both films beside the conductances."""
+    scaled = ScaledProblem.of(roller(20.0, length="2 mm", profile={"shape": "logarithmic"}))
+    ends = Domain.model_construct(x=(-3.0, 1.6), y=ROLLER_ENDS)
+    grid = Grid(nx=POINTS, ny=POINTS, domain=ends, mirror=mirror, crowding=1.5)
+    options = Options(deformation="fft", edges="zero")
+    fine = Level(Equations.on(grid, scaled, flow_table(scaled), options), ROUGH)
+    pose_problem(fine)
+    from_dry_pressure(fine, 0.1)
+    shape, rng, states = grid.shape, np.random.default_rng(2), []
+    fine.set_state(0.5 * fine.film.p + 0.02 * rng.random(shape) * (fine.film.p > 0.0), 0.5)
+    fine.update()
+    change = np.where(fine.film.p > 0.05, rng.standard_normal(shape), 0.0)
+    by_pressure, by_film = jacobian(
+        fine.film, fine.stencil, neighbours_of(grid, fine.stencil), *conductance_slopes(fine)
+    )
+    bent = np.empty(shape)
+    fine.equations.deformation.deflect(change, bent)
+    linear = (by_pressure @ change.ravel() + by_film @ (bent.ravel() + 0.3)).reshape(shape)
+    before, approach, step = fine.film.p.copy(), fine.rigid_approach, 1e-5
+    for sign in (1.0, -1.0):
+        fine.set_state(before + sign * step * change, approach + sign * step * 0.3)
+        fine.update()
+        states.append(np.empty(shape))
+        reynolds.operator(fine.film, fine.stencil, states[-1])
+    numeric = (states[0] - states[1]) / (2.0 * step)
+    assert np.abs(numeric - linear).max() < 1e-4 * np.abs(linear).max()
 
 
 def test_bilinear_interpolation_is_exact_for_planes() -> None:

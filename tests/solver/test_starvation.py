@@ -13,7 +13,7 @@ from tehl.estimate.starvation import starved_degree, starved_part, table
 from tehl.io.case import tables_of_text
 from tehl.io.store import save
 from tehl.io.templates import template_text
-from tehl.kernels import cavities, properties, relaxation, reynolds
+from tehl.kernels import cavities, faces, properties, relaxation, reynolds
 from tehl.plots.oil import oil_map
 from tehl.post.layer import LayerDecay, check_layer, layer_decay
 from tehl.post.starvation import meniscus, oil_flux
@@ -66,7 +66,7 @@ def cylinder(centre: float, oil: float, nodes: int, upstream: float) -> tuple[fl
         p, h, h**3, rho, np.zeros_like(h), h**3, h**3, *flags, layer=np.full(3, oil)
     )
     w0, w1, w2 = 1.5 / dx, -2.0 / dx, 0.5 / dx
-    stencil = reynolds.Stencil(1.0 / dx**2, 0.0, w0, w1, w2, 1, reynolds.STEADILY)
+    stencil = faces.Stencil(1.0 / dx**2, 0.0, w0, w1, w2, 1, faces.STEADILY)
     nothing = relaxation.by_lanes(np.zeros((3, 8)))
     lines = relaxation.LineRelaxation(
         xi=0.0,

@@ -2,14 +2,12 @@
 
 from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel
+from tehl.kernels.faces import Stencil, both_x, both_y
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import (
     MARK_THIRD_ORDER,
-    Stencil,
     beyond,
-    both,
-    both_x,
     clear,
     inflow,
     inner_end,
@@ -139,8 +137,8 @@ def _flow_into(film: Film, stencil: Stencil, j: int, i: int) -> tuple[float, flo
     p, eps_x, eps_y = film.p, film.eps_x, film.eps_y
     south, north, here = row_below(j, p.shape[0]), row_above(j, p.shape[0]), film.p[j, i]
     half_x, (half_s, half_n) = 0.5 * stencil.cx, sides(film, stencil, j)
-    gained = half_n * both(stencil, eps_y[j, i], eps_y[north, i]) * (p[north, i] - here)
-    gained += half_s * both(stencil, eps_y[j, i], eps_y[south, i]) * (p[south, i] - here)
+    gained = half_n * both_y(film, stencil, eps_y, (j, i), north) * (p[north, i] - here)
+    gained += half_s * both_y(film, stencil, eps_y, (j, i), south) * (p[south, i] - here)
     gained += half_x * both_x(stencil, eps_x[j, i - 1], eps_x[j, i]) * (p[j, i - 1] - here)
     from_east = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1]) * (p[j, i + 1] - here)
     back = 0.0 if film.partial[j, i + 1] else from_east

@@ -14,7 +14,8 @@ from typing import NamedTuple
 from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import STEADILY, Stencil, both, flux_weights, inner_end
+from tehl.kernels.faces import CLOSED, STEADILY, Stencil, both, opening_power
+from tehl.kernels.reynolds import flux_weights, inner_end
 
 # part of a change of the pressure that asperities take by the film it moves
 NEGLIGIBLE_COARSE_PART = 1e-6
@@ -179,13 +180,18 @@ def _add_face(state: Coarse, stencil: Stencil, work: Work, n: int) -> None:
         c *= lines.north[here] if n == NORTH else lines.south[here]
     mine = c * (film.stretch_x[here] if along else film.stretch_y[here])
     theirs = c * (film.stretch_x[there] if along else film.stretch_y[there])
-    face = mine * film.eps[here] + theirs * film.eps[there]
+    face, drop = mine * film.eps[here] + theirs * film.eps[there], state.p[there] - state.p[here]
     if not along and stencil.arithmetic < 1.0:
-        ratio = sqrt(theirs * film.eps[there] / (mine * film.eps[here]))
-        face = both(stencil, mine * film.eps[here], theirs * film.eps[there])
-        mine *= ratio + stencil.arithmetic * (1.0 - ratio)
-        theirs *= 1.0 / ratio + stencil.arithmetic * (1.0 - 1.0 / ratio)
-    drop = state.p[there] - state.p[here]
+        ours, others = mine * film.eps[here], theirs * film.eps[there]
+        ratio = sqrt(others / ours)
+        opening = opening_power(stencil, state.h[here], state.h[there])
+        face = both(stencil, ours, others, opening)
+        if stencil.mirror >= CLOSED and min(state.h[here], state.h[there]) > 0.0:
+            opens = 1.5 * stencil.arithmetic * (opening * ours - others / opening)
+            by_h[HERE] -= drop * opens / state.h[here]
+            by_h[n] += drop * opens / state.h[there]
+        mine *= ratio + stencil.arithmetic * (opening - ratio)
+        theirs *= 1.0 / ratio + stencil.arithmetic * (1.0 / opening - 1.0 / ratio)
     by_p[HERE] += drop * mine * film.eps_p[here] - face
     by_h[HERE] += drop * mine * film.eps_h[here]
     by_p[n] += face + drop * theirs * film.eps_p[there]

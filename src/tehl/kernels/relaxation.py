@@ -22,14 +22,11 @@ import numpy as np
 
 from tehl.base.typing import Array, FlagArray, IntArray, Records
 from tehl.kernels.compiled import helper, kernel
+from tehl.kernels.faces import STEADILY, Stencil, both_x, both_y, slope_y
 from tehl.kernels.lanes import LANES, any_of, where
 from tehl.kernels.properties import Film, FlowTable
 from tehl.kernels.raw import lanes, raw
 from tehl.kernels.reynolds import (
-    STEADILY,
-    Stencil,
-    both,
-    both_x,
     clear,
     curved_wedge,
     flux_weights,
@@ -163,8 +160,10 @@ def mark_dipoles(film: Film, stencil: Stencil, relaxation: LineRelaxation) -> No
 
 
 @kernel
-def stiffen(film: Film, stencil: Stencil, flow: FlowTable, out: Array) -> None:
+def stiffen(film: Film, stencil: Stencil, flow: FlowTable, whole: int, out: Array) -> None:
     """Write the contribution of the change of conductance with pressure to the diagonal to ``out``.
+
+    Along y, and if ``whole`` is 1 along x too.
 
     Where the pressure rises to a neighbour by many times the pressure 1/alpha that thickens the oil
     by a factor of e, the flow between both depends on the conductance of the lower one more than on
@@ -182,10 +181,14 @@ def stiffen(film: Film, stencil: Stencil, flow: FlowTable, out: Array) -> None:
             p = film.p[j, i]
             k = int(min(p / step, last)) if p > 0.0 else 0
             decay = max(-table[k, 1] / (table[k, 0] * step), 0.0)
-            along = max(film.p[j, i - 1] - p, 0.0) + max(film.p[j, i + 1] - p, 0.0)
-            across = half_s * max(film.p[south, i] - p, 0.0)
-            across += half_n * max(film.p[north, i] - p, 0.0)
-            slope = 0.5 * stencil.cx * film.eps_x[j, i] * along + film.eps_y[j, i] * across
+            below = half_s * max(film.p[south, i] - p, 0.0)
+            above = half_n * max(film.p[north, i] - p, 0.0)
+            across = below * slope_y(film, stencil, (j, i), south)
+            across += above * slope_y(film, stencil, (j, i), north)
+            slope = film.eps_y[j, i] * across
+            if whole:
+                along = max(film.p[j, i - 1] - p, 0.0) + max(film.p[j, i + 1] - p, 0.0)
+                slope += 0.5 * stencil.cx * film.eps_x[j, i] * along
             out[j, i] = decay * slope
 
 
@@ -234,8 +237,8 @@ def _load_node(
     )
     half_x, (half_s, half_n) = 0.5 * stencil.cx, sides(film, stencil, j)
     cells[at, EAST, lane] = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
-    across = half_n * both(stencil, eps_y[j, i], eps_y[north, i])
-    across += half_s * both(stencil, eps_y[j, i], eps_y[south, i])
+    across = half_n * both_y(film, stencil, eps_y, (j, i), north)
+    across += half_s * both_y(film, stencil, eps_y, (j, i), south)
     cells[at, ACROSS, lane] = across + relaxation.stiffness[j, i]
     if relaxation.apart and not relaxation.kind[j, i]:
         cells[at, ACROSS, lane] += FAR_WEDGE

@@ -9,55 +9,22 @@ and an upstream difference of the wedge (Venner and Lubrecht 2000, chapter 6). W
 third order the mean is geometric: the conductance varies exponentially with the pressure, by
 factors from node to node. Where oil flows obliquely it is logarithmic along y: by a geometric mean
 less flows out through a face the more the pressure falls, beyond 2/alpha, and relaxation at the
-steep side of a turned ellipse hardly converges. Where the surfaces spin the wedge is
+steep side of a turned ellipse hardly converges; so do the ends of rollers, where the film opens by
+many films from line to line besides: there the mean of the mobilities is logarithmic, that of the
+cubes of the films geometric. Where the surfaces spin the wedge is
 (u rho h)_x + (v rho h)_y / kappa with u(y) and v(x), each upstream by its sign
 (docs/theory/directions.md). With ``mirror`` row 0 is the symmetry line y = 0; otherwise it is an
 edge with p = 0. Fields are those of `tehl.kernels.properties`.
 """
 
-from math import sqrt
-from typing import NamedTuple
-
 from tehl.base.typing import Array, FlagArray
 from tehl.kernels.compiled import helper, kernel, summing_helper
+from tehl.kernels.faces import CLOSED, STEADILY, Stencil, both_x, both_y
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
 
-CLOSED = 2
-"""Added to ``mirror`` where no oil flows through the ends: their rows are inner ones."""
-STEADILY, IN_TIME = 1, 2
 MARK_SECOND_ORDER, MARK_THIRD_ORDER = 1, 2
 """Marks of the nodes that pass on oil with second and with third order where it is conserved."""
-
-
-class Stencil(NamedTuple):
-    """Weights of the differences on one grid.
-
-    ``cx = 1/dx^2``, ``cy = 1/(kappa dy)^2``; ``w0, w1, w2`` weigh rho h of a node and of its
-    upstream neighbours: the wedge, in a time step wedge and squeeze at the new time; ``mirror`` is
-    1 if row 0 is a symmetry line, and 2 more where the ends are closed; ``conserves`` is `STEADILY`
-    or `IN_TIME` if oil is conserved in cavities too. In a time step what a cell holds does not
-    depend on the present of others.
-    ``third`` is zero, or 1/3 of ``1/dx``: the weight of the third difference that makes a wedge of
-    second order one of third order. From column ``fore`` on, behind the centre, half of it is
-    added: all of it overshoots at the pressure spike. ``geometric`` is 1 where the conductance
-    along x has geometric means: with a wedge of third order, and in the time steps from its film.
-    ``arithmetic`` is the part of the arithmetic mean of the conductance along y beside the
-    geometric one: a third makes it nearly a logarithmic one. Relaxation keeps the wedge of second
-    order, which has the larger diagonal.
-    """
-
-    cx: float
-    cy: float
-    w0: float
-    w1: float
-    w2: float
-    mirror: int
-    conserves: int = 0
-    third: float = 0.0
-    fore: int = 0
-    arithmetic: float = 1.0
-    geometric: int = 0
 
 
 @helper
@@ -79,29 +46,6 @@ def row_above(j: int, ny: int) -> int:
 def inner_end(ny: int, mirror: int) -> int:
     """Return the row before which the inner rows end: the edge, if there is more than one."""
     return ny if mirror >= CLOSED else max(ny - 1, 1)
-
-
-@helper
-def both(stencil: Stencil, here: float, there: float) -> float:
-    """Return twice the conductance of the face between two nodes of a column."""
-    if stencil.arithmetic < 1.0:
-        geometric = 2.0 * sqrt(here * there)
-        return geometric + stencil.arithmetic * (here + there - geometric)
-    return here + there
-
-
-@helper
-def both_x(stencil: Stencil, west: float, east: float) -> float:
-    """Return twice the conductance of the face between two nodes along x.
-
-    Where it rises along the flow, behind the pressure spike, the geometric mean would be too small:
-    a steep fall of the pressure is met by the logarithmic mean, here within 2 % up to a factor of
-    10: (2 sqrt(a b) + (a + b)/2)/3.
-    """
-    if stencil.geometric:
-        geometric = 2.0 * sqrt(west * east)
-        return geometric + (west + east - geometric) / 3.0 if east > west else geometric
-    return west + east
 
 
 @helper
@@ -147,8 +91,8 @@ def _line_flow(film: Film, stencil: Stencil, j: int, out: Array, place: tuple[in
     for i in range(1, end):
         east = both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
         west = both_x(stencil, eps_x[j, i - 1], eps_x[j, i])
-        upper = both(stencil, eps_y[j, i], eps_y[north, i])
-        lower = both(stencil, eps_y[j, i], eps_y[south, i])
+        upper = both_y(film, stencil, eps_y, (j, i), north)
+        lower = both_y(film, stencil, eps_y, (j, i), south)
         flow_x = east * (p[j, i + 1] - p[j, i]) - west * (p[j, i] - p[j, i - 1])
         flow_y = half_n * upper * (p[north, i] - p[j, i]) - half_s * lower * (p[j, i] - p[south, i])
         out[row, i] = half_x * flow_x + flow_y
@@ -343,8 +287,8 @@ def _node_diagonal(film: Film, stencil: Stencil, self_film: float, j: int, i: in
         stencil, eps_x[j, i - 1], eps_x[j, i]
     )
     half_s, half_n = sides(film, stencil, j)
-    across = half_n * both(stencil, eps_y[j, i], eps_y[north, i])
-    across += half_s * both(stencil, eps_y[j, i], eps_y[south, i])
+    across = half_n * both_y(film, stencil, eps_y, (j, i), north)
+    across += half_s * both_y(film, stencil, eps_y, (j, i), south)
     flow = 0.5 * stencil.cx * along + across
     if film.speed.shape[0] > 0:
         w0 = stencil.w0 * (abs(film.speed[j]) + abs(film.drift[i]))
@@ -432,10 +376,10 @@ def tangent_source(film: Film, stencil: Stencil, out: Array) -> None:
             east -= both_x(stencil, eps[j, i], eps[j, i + 1])
             west = both_x(stencil, eps_x[j, i - 1], eps_x[j, i])
             west -= both_x(stencil, eps[j, i - 1], eps[j, i])
-            upper = both(stencil, eps_y[j, i], eps_y[north, i])
-            upper -= both(stencil, eps[j, i], eps[north, i])
-            lower = both(stencil, eps_y[j, i], eps_y[south, i])
-            lower -= both(stencil, eps[j, i], eps[south, i])
+            upper = both_y(film, stencil, eps_y, (j, i), north)
+            upper -= both_y(film, stencil, eps, (j, i), north)
+            lower = both_y(film, stencil, eps_y, (j, i), south)
+            lower -= both_y(film, stencil, eps, (j, i), south)
             flow_x = east * (p[j, i + 1] - p[j, i]) - west * (p[j, i] - p[j, i - 1])
             flow_y = half_n * upper * (p[north, i] - p[j, i])
             flow_y -= half_s * lower * (p[j, i] - p[south, i])

@@ -8,8 +8,9 @@ Fine fields are (ny, nx), coarse ones ((ny+1)/2, (nx+1)/2) or as many along one 
 
 from tehl.base.typing import Array, FlagArray
 from tehl.kernels.compiled import helper, kernel
+from tehl.kernels.faces import CLOSED
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import CLOSED, clear, inner_end, row_above, row_below
+from tehl.kernels.reynolds import clear, inner_end, row_above, row_below
 
 
 @helper

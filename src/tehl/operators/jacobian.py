@@ -15,8 +15,9 @@ from scipy.sparse import csr_matrix, kron
 
 from tehl.base.typing import Array, BoolArray, IntArray
 from tehl.estimate.grid import Grid
+from tehl.kernels.faces import CLOSED, MOST_OPENING, NO_FILM, Stencil
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import MARK_THIRD_ORDER, Stencil
+from tehl.kernels.reynolds import MARK_THIRD_ORDER
 from tehl.operators.reynolds import Entrainment
 
 
@@ -215,18 +216,25 @@ def jacobian(
     """
     n, p = neighbours, film.p.ravel()
     flow, opening = csr_matrix(n.here.shape), csr_matrix(n.here.shape)
+    parting, gap = csr_matrix(n.here.shape), film.h.ravel()
     # face flow (eps_here + eps_there)/2 (P_there - P_here): derivatives by P, then by eps
     for there, half, eps, way in _sides(film, stencil, n):
         step = there - n.here
         weight = half if cavity is None else half * cavity.open_faces(there, way)
-        flow = flow + rows(weight * _both(stencil, n.here @ eps, there @ eps, way)) @ step
+        gaps = n.here @ gap, there @ gap
+        power = _opening_power(stencil, *gaps, way)
+        flow = flow + rows(weight * _both(stencil, n.here @ eps, there @ eps, way, power)) @ step
         pressed = weight * (step @ p)
         if _is_arithmetic(stencil, way):
             opening = opening + rows(pressed) @ (there + n.here)
         else:  # of the secant conductance: the tangent one differs where the film thins
             both = n.here @ film.eps.ravel(), there @ film.eps.ravel()
-            here, beyond = _slopes(stencil, *both, way)
+            here, beyond = _slopes(stencil, *both, way, power)
             opening = opening + rows(pressed * beyond) @ there + rows(pressed * here) @ n.here
+            if stencil.mirror >= CLOSED and way == 0:
+                parts = 1.5 * stencil.arithmetic * pressed * (power * both[0] - both[1] / power)
+                near, far = (parts / np.where(one > 0.0, one, np.inf) for one in gaps)
+                parting = parting + rows(far) @ there - rows(near) @ n.here
     # wedge rho H: rho by the film, drho/dP H by the pressure
     thicker, denser = film.rho.ravel(), (film.drho * film.h).ravel()
     slope = by_pressure.ravel()
@@ -235,6 +243,7 @@ def jacobian(
         denser = np.where(cavity.full > 0.0, denser, 1.0)
     pressed = flow + opening @ rows(slope) - n.upstream @ rows(denser)
     opened = opening @ rows(by_film.ravel()) - n.upstream @ rows(thicker)
+    opened = opened + (parting @ rows(film.opening.ravel()) if film.opening.size else parting)
     return csr_matrix(pressed), csr_matrix(opened)
 
 
@@ -252,12 +261,20 @@ def _sides(
             (n.north, north, eps_y, 0), (n.south, south, eps_y, 0))  # fmt: skip
 
 
-def _both(stencil: Stencil, here: Array, there: Array, way: int) -> Array:
+def _opening_power(stencil: Stencil, here: Array, there: Array, way: int) -> Array:
+    """Return (H_there/H_here)^3/2 as `tehl.kernels.faces.opening_power` has it."""
+    if way or stencil.mirror < CLOSED:
+        return np.ones(here.shape)
+    ratio = (np.abs(there) + NO_FILM) / (np.abs(here) + NO_FILM)
+    return np.asarray(np.clip(ratio, 1.0 / MOST_OPENING, MOST_OPENING) ** 1.5)
+
+
+def _both(stencil: Stencil, here: Array, there: Array, way: int, power: Array) -> Array:
     """Return twice the conductance of faces, as `tehl.kernels.reynolds` has it."""
     if _is_arithmetic(stencil, way):
         return there + here
-    geometric = 2.0 * np.sqrt(here * there)
-    return geometric + _arithmetic(stencil, here, there, way) * (here + there - geometric)
+    geometric, apart = 2.0 * np.sqrt(here * there), power * here + there / power
+    return geometric + _arithmetic(stencil, here, there, way) * (apart - geometric)
 
 
 def _is_arithmetic(stencil: Stencil, way: int) -> bool:
@@ -270,13 +287,15 @@ def _arithmetic(stencil: Stencil, here: Array, there: Array, way: int) -> Array:
     return rises if way else np.full(here.shape, stencil.arithmetic)
 
 
-def _slopes(stencil: Stencil, here: Array, there: Array, way: int) -> tuple[Array, Array]:
+def _slopes(
+    stencil: Stencil, here: Array, there: Array, way: int, power: Array
+) -> tuple[Array, Array]:
     """Return the derivatives of twice a conductance, not of an arithmetic mean, by both nodes'."""
     part = _arithmetic(stencil, here, there, way)
     inside = (here > 0.0) & (there > 0.0)  # rows of edge nodes are zero
     ratio = np.sqrt(np.where(inside, there, 1.0) / np.where(inside, here, 1.0))
     first, second = ratio, 1.0 / ratio
-    return first + part * (1.0 - first), second + part * (1.0 - second)
+    return first + part * (power - first), second + part * (1.0 / power - second)
 
 
 def flux_difference(

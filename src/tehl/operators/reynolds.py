@@ -13,8 +13,9 @@ from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.spin import spin_number
+from tehl.kernels.faces import CLOSED, IN_TIME, STEADILY, Stencil
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import CLOSED, IN_TIME, MARK_THIRD_ORDER, STEADILY, Stencil
+from tehl.kernels.reynolds import MARK_THIRD_ORDER
 from tehl.operators.influence import Influence
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
@@ -47,8 +48,8 @@ def steady_stencil(
     wedge_order : {1, 2, 3}
         Order of the upstream difference: (1, -1), (3/2, -2, 1/2) or (2, 3, -6, 1)/6 over dx, the
         last with geometric means of the conductance, logarithmic ones along y if it is oblique.
-        Those along y of rollers are always geometric: at their ends the conductance changes by
-        orders of magnitude from line to line.
+        Those along y of rollers are always of the mobilities logarithmic and of the cubes of the
+        films geometric: at their ends both change by orders of magnitude from line to line.
     conserves : bool
         Whether oil is conserved in cavities.
     speed : float
@@ -76,7 +77,7 @@ def steady_stencil(
 def _arithmetic_part(wedge_order: int, *, is_closed: bool, oblique: bool) -> float:
     if wedge_order < 3 and not is_closed:
         return 1.0
-    return 1.0 / 3.0 if oblique else 0.0
+    return 1.0 / 3.0 if oblique or is_closed else 0.0
 
 
 class Entrainment(NamedTuple):
@@ -120,7 +121,7 @@ def conductance(stencil: Stencil, here: Array, there: Array) -> Array:
 
 
 def of_second_order(stencil: Stencil) -> Stencil:
-    """Return the weights of a wedge of second order at most; means on rollers stay geometric."""
+    """Return the weights of a wedge of second order at most; means on rollers stay as they are."""
     is_closed = stencil.mirror >= CLOSED
     return stencil._replace(
         third=0.0, arithmetic=stencil.arithmetic if is_closed else 1.0, geometric=0

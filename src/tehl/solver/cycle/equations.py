@@ -20,7 +20,7 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.spin import spin_number
 from tehl.estimate.starvation import EnteringOil, entering_oil, supplied_film
-from tehl.kernels import reynolds
+from tehl.kernels.faces import Stencil
 from tehl.operators.deformation import Deformation, choose
 from tehl.operators.dry import start_pressure
 from tehl.operators.far_field import Edges, far_field
@@ -88,7 +88,7 @@ class Equations:
     groups: Groups
     flow: FlowTable
     """Mobility and density of the lubricant over pressure."""
-    stencil: reynolds.Stencil
+    stencil: Stencil
     """Weights of the Reynolds operator on the finest grid of a cycle."""
     influence: Influence
     """Deflection per unit pressure on one cell."""
@@ -113,7 +113,7 @@ class Equations:
         return start_pressure(self.grid, self.groups, load, curvature)
 
     @property
-    def robust(self) -> reynolds.Stencil:
+    def robust(self) -> Stencil:
         """Weights on the coarser grids of a cycle: a wedge of second order at most."""
         return of_second_order(self.stencil)
 

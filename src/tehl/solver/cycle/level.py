@@ -13,6 +13,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.kernels import properties, reynolds
+from tehl.kernels.faces import STEADILY, Stencil
 from tehl.operators.far_field import Edges
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Relaxation, make_smoother
@@ -73,7 +74,7 @@ class Level:
         return self.equations.outside.far_field if self.is_finest else None
 
     @property
-    def stencil(self) -> reynolds.Stencil:
+    def stencil(self) -> Stencil:
         """Weights of the Reynolds operator.
 
         Coarser levels of a cycle, and the coarsest, have a wedge of second order (double
@@ -82,7 +83,7 @@ class Level:
         return self.equations.stencil if self.is_finest else self.equations.robust
 
     @property
-    def balance(self) -> reynolds.Stencil:
+    def balance(self) -> Stencil:
         """The same by fluxes through the faces of cells where surfaces may touch.
 
         The order of each flux is then chosen by `Film.second`, and oil is conserved all the same.
@@ -91,7 +92,7 @@ class Level:
         """
         if not (self.share.by_flux and self.is_finest) or self.stencil.w1 == 0.0:
             return self.stencil
-        return self.stencil._replace(conserves=reynolds.STEADILY)
+        return self.stencil._replace(conserves=STEADILY)
 
     # state
 

@@ -15,8 +15,8 @@ import numpy as np
 from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.estimate.grid import LONG_STRETCH, Grid
 from tehl.kernels import relaxation as kernels
+from tehl.kernels.faces import CLOSED, Stencil
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import CLOSED, Stencil
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence
 from tehl.operators.reynolds import curved_influence, line_influence, line_shapes
@@ -174,8 +174,8 @@ class LineSmoother:
 
     def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place."""
-        if self.is_stiff:
-            kernels.stiffen(film, stencil, flow, self.stiffness)
+        if self.is_stiff or stencil.mirror >= CLOSED:
+            kernels.stiffen(film, stencil, flow, int(self.is_stiff), self.stiffness)
         is_held = is_long(stencil, touches=bool(self.workspace.touches))
         if is_held and not self.workspace.apart:
             held = (HELD if stencil.cy == 0.0 else HELD_LONG) * stencil.cx * film.eps_x

@@ -12,6 +12,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.kernels import cavities, reynolds, transfer
+from tehl.kernels.faces import STEADILY, Stencil
 from tehl.kernels.properties import Factors, Film, Heated
 from tehl.operators.transfer import injected
 from tehl.solver.cycle.equations import Equations, Sources
@@ -50,7 +51,7 @@ class Wetted(Protocol):
         """The nodes."""
 
     @property
-    def stencil(self) -> reynolds.Stencil:
+    def stencil(self) -> Stencil:
         """Weights of the Reynolds operator."""
 
     @property
@@ -132,7 +133,7 @@ class Conserving(ZeroPressure):
 
     def mark(self, level: Wetted) -> None:
         """Mark partly filled nodes, and those that pass on oil with second order."""
-        if level.stencil.conserves != reynolds.STEADILY or not level.is_finest:
+        if level.stencil.conserves != STEADILY or not level.is_finest:
             return
         film, stencil = level.film, level.stencil
         scratch = np.empty((1, film.p.shape[1]))
@@ -167,7 +168,7 @@ class Conserving(ZeroPressure):
 
     def inject(self, fine: Wetted, coarse: Wetted) -> None:
         """Inject the marks of partly filled nodes."""
-        if fine.stencil.conserves == reynolds.STEADILY:
+        if fine.stencil.conserves == STEADILY:
             coarse.film.partial[:] = injected(fine.film.partial, coarse.film.partial)
             cavities.mark_second_order(coarse.film, coarse.stencil)
 
@@ -187,7 +188,7 @@ class Conserving(ZeroPressure):
         A cycle moves them by some nodes only: coarse grids keep them. The pressure there hardly
         changes the film, which is not evaluated between the sweeps.
         """
-        if level.stencil.conserves != reynolds.STEADILY:
+        if level.stencil.conserves != STEADILY:
             return True
         (least, most), smoother, film = FRONT_SWEEPS, level.smoother, level.film
         level.update()
