@@ -159,6 +159,16 @@ def test_cycles_on_lines_that_crowd_leave_a_third_of_the_residual(profile, point
     assert (residuals[5] / residuals[1]) ** 0.25 < 0.35
 
 
+@pytest.mark.parametrize("tilt", [0.0, 1e-4], ids=["even", "tilted"])
+def test_a_thick_film_at_a_steep_end_converges(tilt):
+    """By a geometric mean of conductances two pressures of a line had one flow, and alternated."""
+    steep = roller(11.7, moes_speed=15.3, radius="8 mm", profile={"shape": "lundberg"}, tilt=tilt)
+    found = tehl.solve(steep, Options(points=(257, 129), smoother="fast", wedge_order=3))
+    assert len([one for one in found.history if one.points == (257, 129)]) <= 8
+    if not tilt:  # 513 x 257 nodes
+        assert found.film_scaled.minimum == pytest.approx(0.0988, rel=found.errors.minimum)
+
+
 def test_a_straight_roller_has_the_film_of_a_line_in_its_middle():
     found = tehl.solve(roller(9.3, moes_speed=14.4, length="8 mm"))
     assert {one.smoother for one in found.history} == {"fast"}  # on lines that crowd none converges
@@ -200,14 +210,14 @@ def test_lines_crowd_at_the_ends_and_resolve_the_film_there(logarithmic):
     found = logarithmic
     y = found.scaled.y
     assert y[-1] - y[-2] < 0.15 * (y[65] - y[64])
-    # grids twice as fine each way give 0.0184
-    assert found.film_scaled.minimum == pytest.approx(0.0184, rel=found.errors.minimum)
+    # 1025 x 513 nodes, also with a logarithmic mean of all of the conductance
+    assert found.film_scaled.minimum == pytest.approx(0.0180, rel=found.errors.minimum)
     assert found.errors.minimum < 0.08  # uniform lines err by a third
 
 
 @pytest.mark.parametrize(
     ("sources", "minimum", "traction"),
-    [(None, 0.01831, -0.05358), ("line", 0.01739, -0.04883), ("full", 0.01742, -0.04872)],
+    [(None, 0.01765, -0.05358), ("line", 0.01662, -0.04883), ("full", 0.01669, -0.04875)],
 )
 def test_lines_of_thinning_and_heated_films_crowd_too(sources, minimum, traction):
     """On uniform lines the minimum is 0.025 (heated 0.023); values are those of 257 x 129 nodes."""
@@ -281,9 +291,9 @@ def test_a_roller_is_certified_between_its_ends(logarithmic):
     assert central.domain < 1e-3 * central.value  # the larger domain is longer along x alone
     assert central.uncertainty < 0.03 * central.value
     minimum = logarithmic.uncertainty["film_minimum"]
-    # 0.0187 on grids twice as fine, 0.0184 by extrapolation; on uniform lines it was 0.0245
+    # 1025 x 513 nodes; on uniform lines it was 0.0245
     assert minimum.uncertainty < 0.06 * minimum.value
-    assert minimum.value == pytest.approx(0.0186, abs=minimum.uncertainty)
+    assert minimum.value == pytest.approx(0.0180, abs=minimum.uncertainty)
 
 
 def test_a_tilted_roller_mirrors_and_carries_more_where_the_gap_closes():
@@ -368,8 +378,8 @@ def test_lines_crowd_at_the_steep_end_of_the_loaded_part():
     found = tehl.solve(
         roller(profile={"shape": "lundberg"}), Options(points=(513, 257), wedge_order=3)
     )
-    # 513 x 513 nodes with cells half as long give 0.00220
-    assert found.film_scaled.minimum == pytest.approx(0.00221, rel=0.02)
+    # 1025 x 513 nodes; 513 x 513 nodes with cells half as long give 0.00220
+    assert found.film_scaled.minimum == pytest.approx(0.00224, rel=0.02)
     assert found.errors.minimum > 0.02
 
 

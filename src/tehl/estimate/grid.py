@@ -27,16 +27,15 @@ LEAST_LINES, LEAST_CROWDED = 12, 24
 16 intervals, seven contacts of bearings take as many cycles. Where lines crowd at the ends of a
 roller: with half as many the ends of lundberg profiles lack lines, and the cycles end at a residual
 of 1e-5. Only beside columns that halve twice or more: bars compare three grids."""
-END_CELL, LEAST_PART = 1.4, 0.002
-"""Length of the cells where a roller ends or leaves the raceway over their width: with 1 single
-nodes there alternate from cycle to cycle, with 2 the thinnest film of a logarithmic profile errs
-three times as much. Least part of the mean distance of lines that it may be."""
+END_CELL, SHORTEST_CELL, LEAST_PART = 5.0, 0.6, 0.002
+"""Length of the cells where a roller ends or leaves the raceway over their width and the root of
+the central film: the valley before a loaded end is as wide as 0.7 of that root. With 4 cycles of
+logarithmic profiles (M = 50) diverge on 513 x 257 nodes, with 8 the thinnest film errs three times
+as much on 257 x 129. Least length over the width: with 0.3 those of heavy loads (M = 150) diverge.
+Least part of the mean distance of lines that it may be."""
 OUTSIDE_GROWTH, PLACING_HALVINGS = 3.0, 60
 """Growth of cells beyond the loaded part of a roller over that within it, as nothing flows there;
 halvings that find a place or a width to rounding."""
-END_FILM = 0.1
-"""Central film from which on those cells are longer, by its square root: between thick films nodes
-alternate on longer ones too (M 12, L 15 with a tilt: cycles stall with 1.4, and not with 2)."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

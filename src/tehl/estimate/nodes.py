@@ -9,7 +9,7 @@ from tehl.contact.shape import LINE
 from tehl.estimate.domain import domain_of, far_field_error
 from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film
-from tehl.estimate.grid import END_CELL, END_FILM, Grid, can_mirror, crowding
+from tehl.estimate.grid import END_CELL, SHORTEST_CELL, Grid, can_mirror, crowding
 from tehl.estimate.line import LINE_ROUGH_NODES, line_bar, line_points
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.settled import crowds_at_ends, raises_order, settled
@@ -407,6 +407,6 @@ def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror)
     if not (grid.is_closed and crowds_at_ends(scaled.problem)):
         return grid
-    longer = max(expected_central_film(scaled.entering) / END_FILM, 1.0) ** 0.5
-    least = END_CELL * longer * grid.dx / (scaled.groups.ellipticity * grid.dy)
+    cell = max(END_CELL * expected_central_film(scaled.entering) ** 0.5, SHORTEST_CELL)
+    least = cell * grid.dx / (scaled.groups.ellipticity * grid.dy)
     return replace(grid, crowding=crowding(least))

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel
-from tehl.kernels.raw import raw
 from tehl.kernels.faces import CLOSED, STEADILY, Stencil, both, opening_power
+from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import flux_weights, inner_end
 
 # part of a change of the pressure that asperities take by the film it moves
