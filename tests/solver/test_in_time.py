@@ -12,7 +12,8 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import TransientResult
 from tehl.contact.moment import Moment, courses_of, moment_at
 from tehl.contact.options import Domain, Options
-from tehl.estimate.scaling import scales
+from tehl.estimate.film_formulas import expected_film
+from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.estimate.schedule import Schedule
 from tehl.io.templates import template_text
 from tehl.operators.reynolds import carried
@@ -116,6 +117,23 @@ def test_a_wedge_of_third_order_stays_so_while_the_speed_varies():
     off = {key: np.abs(one / wanted - 1.0).max(axis=1) for key, one in films.items()}
     assert (off[65, 3] < off[129, 2]).all()
     assert (off[65, 3] < 0.3 * off[65, 2]).all()
+
+
+def test_a_film_that_touches_errs_less_by_geometric_means_while_the_load_varies():
+    case = moes_contact(50, 5)
+    unit = scales(case).half_width_x / scales(case).speed
+    film = 0.8 * expected_film(ScaledProblem.of(case))
+    course = {"duration": unit, "load": [[0.0, 1.0], [unit, 1.2]], "frames": 0}
+    tables = {"contact_film": {"thickness": film}, "transient": course}
+    touching = ContactProblem.model_validate(case.model_dump(exclude_none=True) | tables)
+    central = {}
+    for nodes, order in ((65, 2), (129, 2), (65, 3)):
+        history = solve_transient(touching, Options(points=nodes, wedge_order=order)).history
+        assert history.film_minimum[-1] == pytest.approx(film, rel=1e-3)
+        central[nodes, order] = np.array([history.film_central[k] for k in (0, -1)])
+    wanted = (4.0 * central[129, 2] - central[65, 2]) / 3.0
+    off = {key: np.abs(one / wanted - 1.0) for key, one in central.items()}
+    assert (off[65, 3] < 0.7 * off[65, 2]).all()
 
 
 def test_a_table_that_does_not_change_gives_the_same_run_bit_by_bit():

@@ -83,7 +83,10 @@ class Stepper:
         self.schedule, level = schedule, solver.finest
         varying = schedule.length(level.grid.dx, level.grid.nx)
         solver.coupling.begin_transient(solver.levels, schedule.step, varying)
-        self.oil = Oil(level, transient.stride, solver.options.order, schedule)
+        touches = level.equations.solids.contact_film is not None
+        # where surfaces may touch fluxes are of second order at most
+        order = min(solver.options.order, 2) if touches else solver.options.order
+        self.oil = Oil(level, transient.stride, order, schedule)
         self.predictor = Predictor(level.pressure, transient.stride)
         self.motion = np.zeros_like(level.rigid)  # change of the rigid motions in the last step
         # all levels take the same time step, and so the same weight of rho H
@@ -96,17 +99,16 @@ class Stepper:
             cycle, levels, solver.hierarchy.coarsest.step, TRANSFERS, SHAPE
         )
         self.touching: TouchingCycle | None = None
-        if level.equations.solids.contact_film is not None:
+        if touches:
             self.touching = TouchingCycle(levels, self.method)
             self.method = self.touching.step
         self.squeeze: Squeeze | Lead
         if varying is not None:
-            order = solver.options.order
             self.squeeze = Lead(self._lead(), level.grid, order, self.oil.follows)
         else:
             step = (schedule.step, level.grid, transient.stride)
             excess = solver.coupling.excess()
-            self.squeeze = Squeeze(self.oil.steady, excess, step, solver.options.order)
+            self.squeeze = Squeeze(self.oil.steady, excess, step, order)
         self.setting = 0
         self.choose(0)
 
