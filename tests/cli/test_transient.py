@@ -198,11 +198,14 @@ def test_an_unfinished_run_is_stored_marked_and_exits_with_1(folder, run, solved
     assert tehl.load("wave.nc").status == status
 
 
-def test_a_run_that_ends_at_its_time_is_continued_for_as_long_again(folder, run, monkeypatch):
+@pytest.mark.parametrize("limit", [9, 99])
+def test_a_run_that_ends_at_its_time_is_continued_for_as_long_or_longer(
+    folder, run, monkeypatch, limit
+):
     ticks = itertools.count()
     monkeypatch.setattr(Clock, "is_over", property(lambda _: next(ticks) > 9))
-    stated = ("solve", "wave.toml", "--set", "numerics.max_time=9")
-    done = run(*stated)
+    stated = ("solve", "wave.toml", "--set")
+    done = run(*stated, "numerics.max_time=9")
     assert done.code == 1
     assert "numerics.max_time = 9 s is over at " in done.err
     assert "is saved in wave.nc.checkpoint; tehl solve --resume continues from it" in done.err
@@ -210,7 +213,7 @@ def test_a_run_that_ends_at_its_time_is_continued_for_as_long_again(folder, run,
     assert first.status.cause == "time_over"
     assert steps_in("wave.nc.checkpoint") == first.history.time.size > 2
     ticks = itertools.count()
-    assert run(*stated, "--resume").code == 1
+    assert run(*stated, f"numerics.max_time={limit}", "--resume").code == 1
     assert tehl.load("wave.nc").history.time.size > first.history.time.size + 2
 
 

@@ -35,10 +35,12 @@ def fingerprint(problem: ContactProblem, options: Options) -> Fingerprint:
     problem : ContactProblem
         Its measured surfaces count by the content of their files.
     options : Options
-        All of them count, also those that do not change the result.
+        All of them count, also those that do not change the result, but ``max_time``: more of it
+        continues a run that it ended.
     """
     maps = [one.fingerprint for one in _maps(problem)]
-    content = [problem.model_dump(mode="json"), options.model_dump(mode="json"), maps]
+    limitless = options.model_dump(mode="json", exclude={"max_time"})
+    content = [problem.model_dump(mode="json"), limitless, maps]
     text = json.dumps(content, sort_keys=True)
     version = f"{__version__} (solver {SOLVER_VERSION}, state {_LAYOUT})"
     return Fingerprint(version, hashlib.sha256(text.encode()).hexdigest())
