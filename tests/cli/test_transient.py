@@ -217,6 +217,16 @@ def test_a_run_that_ends_at_its_time_is_continued_for_as_long_or_longer(
     assert tehl.load("wave.nc").history.time.size > first.history.time.size + 2
 
 
+def test_passes_that_end_at_their_time_leave_a_checkpoint(folder, run):
+    (folder / "grease.toml").write_text(run("new", "grease-decay").out)
+    limits = ("--set", "numerics.points=33", "--set", "numerics.max_time=0.001")
+    done = run("solve", "grease.toml", *limits)
+    assert done.code == 1
+    assert "is over after 1 of 60 passes" in done.err
+    assert "pass 1 is saved in grease.nc.checkpoint; tehl solve --resume" in done.err
+    assert "is over after 2 of 60 passes" in run("solve", "grease.toml", *limits, "--resume").err
+
+
 def test_a_start_that_does_not_converge_is_stored_and_exits_with_1(folder, run, solved):
     solved(ConvergenceError("the steady film at time zero was not reached", make_result(33)))
     done = run("solve", "wave.toml")

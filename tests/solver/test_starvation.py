@@ -304,6 +304,17 @@ def test_passes_continue_where_they_were_stopped(passed, states):
         np.testing.assert_array_equal(getattr(again.passes, name), getattr(passed.passes, name))
 
 
+def test_passes_end_at_their_time_and_continue(passed, states):
+    limited = Options(points=65, max_time=1e-3)
+    with pytest.raises(ConvergenceError, match=r"is over after 1 of 24 passes") as caught:
+        solve_passes(passed.problem, limited)
+    found = caught.value.result
+    assert found.status.cause == "time_over"
+    assert found.passes.film_central == pytest.approx(passed.passes.film_central[:1], rel=1e-12)
+    with pytest.raises(ConvergenceError, match=r"is over after 12 of 24 passes"):
+        solve_passes(passed.problem, limited, resume=states[10])
+
+
 def test_what_comes_back_ends_the_decay(passed):
     supply = passed.problem.supply.model_copy(
         update={"replenishment": 2e-8 / passed.problem.supply.pass_seconds(1.0) / 10.0}

@@ -11,6 +11,8 @@ from tehl.base.atomic import check_writable
 from tehl.base.errors import InputError
 from tehl.cli.lines import show
 from tehl.io.checkpoint import Fingerprint, read_checkpoint, write_checkpoint
+from tehl.result.solution import ConvergenceError
+from tehl.result.transient import TIME_OVER
 from tehl.solver.physics import passes
 from tehl.solver.transient import snapshot
 
@@ -78,9 +80,13 @@ class Keeper(Generic[State]):
 
     @contextmanager
     def on_interrupt(self) -> Iterator[None]:
-        """Write the last state when a signal or a lack of memory ends the run."""
+        """Write the last state when a signal, a lack of memory or of time ends the run."""
         try:
             yield
+        except ConvergenceError as error:
+            if error.result.status.cause == TIME_OVER:
+                self.leave()
+            raise
         except (KeyboardInterrupt, SystemExit, MemoryError):
             self.leave()
             raise

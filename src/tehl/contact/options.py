@@ -105,8 +105,8 @@ class Discretisation(Table):
     smooth on the mesh."""
     max_time: Duration = 3600.0
     """Wall time after which no finer grid and no cycle begins, but for a first second. It has to be
-    stated to limit solves on stated ``points`` and transient runs, which begin no further step
-    after it; ``tehl solve --resume`` continues for as long again."""
+    stated to limit solves on stated ``points``, transient runs and repeated passes, which begin
+    no further step or pass after it; ``tehl solve --resume`` continues."""
     max_memory: Annotated[ByteSize, Field(gt=0), BeforeValidator(_memory)] | None = None
     """Memory that grids for an ``error`` may need, such as ``"2 GB"``; left out, 1.2 GB, at most
     half of what is free. Stated ``points`` may take all."""

@@ -18,7 +18,8 @@ from tehl.estimate.starvation import Flooded
 from tehl.post.starvation import meniscus
 from tehl.result.fields import PassHistory
 from tehl.result.solution import ConvergenceError, Cost, Hint, Solution, Status
-from tehl.solver.cost import end_of_time
+from tehl.result.transient import TIME_OVER
+from tehl.solver.cost import end_of_time, working_time
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import TOO_COARSE, try_strategies
 
@@ -82,7 +83,8 @@ def solve_passes(
     Raises
     ------
     ConvergenceError
-        When a pass does not converge; its ``result`` is that pass with the history before it.
+        When a pass does not converge, or a stated ``max_time`` is over; its ``result`` is that
+        pass with the history before it.
     InputError
         When the case states no passes.
     """
@@ -92,6 +94,8 @@ def solve_passes(
         raise InputError("supply.passes is missing: state how often the surfaces pass the contact")
     state, result = resume, None
     for number in range(len(state.rows) if state else 0, supply.passes):
+        if result is not None and state is not None and working_time() > until:
+            raise _time_over(result.but(problem=problem, passes=_history(state), cost=state.cost))
         result = _one_pass(problem, options, state, monitor if number == 0 else SILENT, until)
         state = _after(result, problem, supply, state)
         if not result.status.converged:
@@ -202,6 +206,22 @@ def resolved(history: PassHistory, mesh: float) -> int:
     """
     near = np.nonzero(history.inlet_distance < RESOLVED_INLET_DISTANCE * mesh)[0]
     return int(near[0]) if near.size else history.time.size
+
+
+def _time_over(result: Solution) -> ConvergenceError:
+    """Return the error of passes that end with ``result``, since their time is over."""
+    supply, history = result.problem.supply, result.passes
+    assert supply is not None
+    assert history is not None
+    message = (
+        f"numerics.max_time = {result.options.max_time:g} s is over after {history.time.size} of "
+        f"{supply.passes} passes. The passes until then are kept."
+    )
+    hint = Hint(
+        "Take a longer numerics.max_time, fewer supply.passes or fewer nodes (numerics.points)."
+    )
+    status = Status(kind="not_converged", cause=TIME_OVER, message=message, hint=hint)
+    return ConvergenceError(message, result.but(status=status))
 
 
 def _judged(result: Solution, history: PassHistory) -> Status:
