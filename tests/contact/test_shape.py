@@ -7,6 +7,8 @@ import pytest
 
 from tehl.contact.bodies import Radii
 from tehl.contact.hertz import elliptic_b_d
+from tehl.contact.profile import Crown
+from tehl.contact.roller import Roller
 from tehl.contact.shape import LINE, Ellipse
 
 CIRCLE = Ellipse(ellipticity=1.0, radius_ratio=1.0)
@@ -32,6 +34,15 @@ def test_the_dry_gap_closes_in_the_contact(ellipticity):
     shape = Ellipse(ellipticity=ellipticity, radius_ratio=1.0)
     gap = shape.dry_gap(radius * np.cos(angle), radius * np.sin(angle))
     assert np.abs(gap).max() < 1e-12
+
+
+def test_the_contact_of_a_roller_is_that_of_its_slices():
+    crown = Crown(shape="crown", radius=6.0)
+    shape = Roller(length=0.01, profile=crown).under(2000.0, Radii(x=0.01, y=math.inf), 2.2e11)
+    x, y = np.linspace(-1.2, 1.2, 61), np.linspace(-1.0, 1.0, 41)[:, None]
+    inside = shape.radius_squared(x, y) < 1.0
+    assert np.array_equal(inside, shape.dry_pressure(x, y) > 0.0)
+    assert inside[20].sum() > inside[2].sum() > 0  # the middle carries more
 
 
 @pytest.mark.parametrize("kappa", [0.5, 1.6, 4.0])

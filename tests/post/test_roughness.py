@@ -83,9 +83,9 @@ def test_lines_that_crowd_do_not_weigh_more():
     steps = np.diff(smooth.y)
     assert steps.max() > 3.0 * steps.min()
     even = on_even_lines(smooth)
-    for level in (0.8, 0.9, 1.1):
+    for level in (0.8, 0.9, 1.1):  # by nodes alone it was 0.09 at 0.9
         part = area_below(smooth, level * smooth.film.central)
-        assert part == pytest.approx(area_below(even, level * smooth.film.central), abs=0.02)
+        assert part == pytest.approx(area_below(even, level * smooth.film.central), abs=0.01)
 
 
 def test_equal_weights_give_the_quantiles_of_numpy():

@@ -102,8 +102,11 @@ class Roller(Line):
         return 0.5 * x**2 + self.rise(y)
 
     def radius_squared(self, x: Array, y: Array) -> Array:
-        """Return X^2 + Y^2 as on an ellipse, of a piece that goes on X^2."""
-        return x**2 + (0.0 if self.goes_on else 1.0) * y**2
+        """Return X^2 over the load of the slice, one on the rim; infinite where none carries."""
+        share = np.ones_like(y) if self.goes_on else self.share(y)
+        loaded = share > 0.0
+        found: Array = np.where(loaded, x**2 / np.where(loaded, share, 1.0), np.inf)
+        return found
 
     @property
     def widest(self) -> float:
