@@ -23,6 +23,7 @@ from tehl.solver.judging.diagnosis import (
     not_reached,
 )
 from tests.reference import heated_contact, moes_contact
+from tests.solver.test_roller import LOGARITHMIC, roller
 
 DOMAIN = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
 
@@ -86,6 +87,22 @@ def test_no_number_of_nodes_follows_from_the_film_where_solids_carry_the_load(te
     assert grid_hint((65, 65), scaled).settings == {"numerics.points": 129}
     found = cause_of(problem, 65)
     assert found is None or found.cause != "film_below_grid"
+
+
+@pytest.mark.parametrize(
+    "edge",
+    [{"profile": {"shape": "crown", "radius": "1 mm"}}, {"tilt": "1 deg"}],
+    ids=["crown", "tilt"],
+)
+def test_a_load_on_the_edge_of_a_roller_is_attributed_to_its_profile_and_tilt(edge):
+    scaled = ScaledProblem.of(roller(12.0, moes_speed=15.0, **({"profile": LOGARITHMIC} | edge)))
+    grid = finest_grid(scaled, Options(points=(257, 129)))
+    found = likely_cause(grid, scaled)
+    assert found.cause == "load_on_an_edge"
+    assert "GPa" in found.message
+    assert "ellipse" in found.hint.advice
+    even = ScaledProblem.of(roller(12.0, moes_speed=15.0, profile=LOGARITHMIC))
+    assert likely_cause(grid, even) is None
 
 
 def test_all_likely_causes_are_reported_and_the_first_names_the_cause():
