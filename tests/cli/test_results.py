@@ -45,7 +45,9 @@ def test_a_format_that_is_missing_or_does_not_match_is_bad_input(stored, run, wo
 
 
 def test_an_unknown_format_is_bad_input(stored, run):
-    assert run("export", str(stored), "--to", "xls").code == 2
+    unknown = run("export", str(stored), "--to", "xls")
+    assert unknown.code == 2
+    assert "'--to': 'xls' is not one of 'csv', 'vtk', 'npz', 'mat'" in unknown.err
 
 
 def test_plots_land_in_the_folder(stored, run, monkeypatch):

@@ -65,6 +65,7 @@ def _lacking(error: BaseException) -> str:
 def _usage(error: Any) -> str:
     """Return what is wrong with a command line in one sentence; without arguments, the help."""
     message = " ".join(error.format_message().split()).removesuffix(".")
+    message = message.replace("Value error, ", "")  # of the library that reads the options
     if len(sys.argv) == 1:
         error.show()
         raise SystemExit(BAD_INPUT)
