@@ -129,6 +129,13 @@ def test_an_implausible_thermal_case_is_reported(change: str, value: object, wor
     assert any(words in question for question in case.questions)
 
 
+def test_little_sliding_that_no_oil_can_stand_asks_for_a_shear_law():
+    ring = {"radius": "5 mm", "load": "60 N", "entrainment_speed": 3, "slide_roll_ratio": 0.015}
+    case = explained(contact=ring, lubricant="mineral-oil")
+    assert case.heat.traction > 0.1
+    assert any("state an Eyring or limiting shear stress" in one for one in case.questions)
+
+
 def test_a_usual_thermal_case_is_plausible():
     eyring = {"name": "mineral-oil", "shear": {"law": "eyring", "stress": "5 MPa"}}
     contact = ball_tables()["contact"] | {"slide_roll_ratio": 0.5}

@@ -23,6 +23,7 @@ from tehl.estimate.film_formulas import (
 from tehl.estimate.nodes import expected_bar, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
+from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
 from tehl.report.roughness import CONVERGES, RESOLVES, Asperities
 
@@ -122,7 +123,7 @@ def questions(
         *_about_limits(scaled.problem),
         *_about_ends(scaled),
         *_about_film(scaled),
-        *_about_sliding(scaled),
+        *_about_sliding(scaled, heat),
         *_about_heat(scaled.problem, heat),
         *_about_bodies(bodies),
         *_about_domain(options, scaled),
@@ -280,7 +281,7 @@ def _about_film(scaled: ScaledProblem) -> Iterator[str]:
         )
 
 
-def _about_sliding(scaled: ScaledProblem) -> Iterator[str]:
+def _about_sliding(scaled: ScaledProblem, heat: ExpectedHeat | None) -> Iterator[str]:
     problem, shear = scaled.problem, scaled.problem.lubricant.shear
     slip, pressure = problem.sliding_speed / problem.entrainment_speed, problem.hertz.pressure
     if abs(problem.motion.sliding_ratio[0]) > 2:
@@ -288,8 +289,9 @@ def _about_sliding(scaled: ScaledProblem) -> Iterator[str]:
             f"slide_roll_ratio = {problem.slide_roll_ratio:g}: the surfaces move in opposite "
             "directions; the ratio is (u_1 - u_2) / u_m, with u_m the mean speed"
         )
-    high = pressure >= UNPHYSICAL * (1.0 - LIMIT_ROUNDING)
-    if slip > SLIDING and high and shear.is_newtonian:
+    high = slip > SLIDING and pressure >= UNPHYSICAL * (1.0 - LIMIT_ROUNDING)
+    high = high or (heat is not None and heat.traction > LARGEST_CREDIBLE)
+    if high and shear.is_newtonian:
         yield (
             f"a Newtonian film slides at {pressure / 1e9:.2g} GPa: traction coefficients above 0.1 "
             "are not physical; state an Eyring or limiting shear stress, "
