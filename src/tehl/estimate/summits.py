@@ -11,7 +11,7 @@ References
 """
 
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -48,11 +48,38 @@ def shared_load(scaled: ScaledProblem) -> SharedLoad:
         return SharedLoad(separation=film, gap=film, share=0.0)
     sigma, modulus = problem.asperity_rms, problem.reduced_modulus
     unit = sigma / scales.film_thickness
-    entering = scaled.entering
+    pressure = asperities.unit(sigma, modulus) / scales.hertz_pressure
+    if isinstance(asperities, GreenwoodTripp):
+        return _shared_by_summits(scaled.entering, film, unit, pressure)
+    return _shared(scaled.entering, film, unit, pressure, _laws(asperities))
+
+
+@lru_cache(maxsize=32)
+def _shared_by_summits(entering: Groups, film: float, unit: float, pressure: float) -> SharedLoad:
+    """Return `_shared` of Greenwood and Tripp: a plan asks for it on each grid."""
+    return _shared(entering, film, unit, pressure, _summits())
+
+
+def _shared(
+    entering: Groups, film: float, unit: float, pressure: float, laws: tuple[Array, Array]
+) -> SharedLoad:
+    """Return the load that is shared.
+
+    Parameters
+    ----------
+    entering : Groups
+        Of the oil that enters.
+    film, unit : float
+        Film without asperities, and their sigma [-].
+    pressure : float
+        Unit of their loads over the Hertz pressure [-].
+    laws : (Array, Array)
+        As of `_laws`.
+    """
     flooded = expected_central_film(entering)
     separations = np.arange(LEAST_SEPARATION, LAST_SEPARATION, SEPARATION_STEP)
-    gaps, loads = _summits() if isinstance(asperities, GreenwoodTripp) else _laws(asperities)
-    carried = asperities.unit(sigma, modulus) * loads / scales.hertz_pressure
+    gaps, loads = laws
+    carried = pressure * loads
 
     def rest(share: float) -> float:
         """Return the film that carries the rest: the mean gap over sigma."""
