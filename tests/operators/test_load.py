@@ -30,10 +30,15 @@ def test_half_a_domain_carries_the_load_of_the_full_one():
 @pytest.mark.parametrize("mirror", [True, False])
 def test_a_start_on_cells_larger_than_the_contact_carries_its_load(mirror):
     groups, fine = contact_groups(), grid_of(65, 65, mirror=mirror)
-    assert np.array_equal(start_pressure(fine, groups), dry_pressure(fine, groups))
+    whole = groups.shape.load
+    assert np.array_equal(start_pressure(fine, groups, whole, 1.0), dry_pressure(fine, groups))
     wide = Domain(x=(-704.8, 320.4), y=(-633.0, 633.0))
     grid = replace(fine, nx=21, ny=21, domain=wide)
     assert not dry_pressure(grid, groups).any()
-    pressure = start_pressure(grid, groups)
-    assert np.count_nonzero(pressure) > 4
-    assert Load(grid).integral(pressure) == pytest.approx(groups.shape.load, rel=1e-12)
+    for load in (whole, 0.3 * whole):
+        pressure = start_pressure(grid, groups, load, 2.0)
+        assert np.count_nonzero(pressure) > 4
+        assert Load(grid).integral(pressure) == pytest.approx(load, rel=1e-12)
+    # of another moment, smaller than the contact but wider than its cells
+    fewer = start_pressure(fine, groups, 0.3 * whole, 2.0)
+    assert Load(fine).integral(fewer) == pytest.approx(0.3 * whole, rel=0.02)

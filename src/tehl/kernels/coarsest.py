@@ -47,7 +47,7 @@ class Lines(NamedTuple):
 
 
 class Coarse(NamedTuple):
-    """State of the coarsest grid: fields (ny, nx), or flat.
+    """State of the coarsest grid, in flat fields (ny nx,).
 
     With asperities ``rho`` is d(rho h)/dH, ``stiffness`` -dp_a/dH, and ``asperity`` their
     pressure; without these have no elements.
@@ -174,15 +174,15 @@ def _add_face(state: Coarse, stencil: Stencil, work: Work, n: int) -> None:
     """Add the derivatives of the pressure flow from neighbour ``n``."""
     near, by_p, by_h = work.near, work.by_p, work.by_h
     here, there, along = near[HERE], near[n], n <= WEST
-    film, lines = state.conductance, state.lines
+    faces, lines = state.conductance, state.lines
     c = 0.5 * (stencil.cx if along else stencil.cy)
     if lines.south.shape[0] > 0 and not along:
         c *= lines.north[here] if n == NORTH else lines.south[here]
-    mine = c * (film.stretch_x[here] if along else film.stretch_y[here])
-    theirs = c * (film.stretch_x[there] if along else film.stretch_y[there])
-    face, drop = mine * film.eps[here] + theirs * film.eps[there], state.p[there] - state.p[here]
+    mine = c * (faces.stretch_x[here] if along else faces.stretch_y[here])
+    theirs = c * (faces.stretch_x[there] if along else faces.stretch_y[there])
+    face, drop = mine * faces.eps[here] + theirs * faces.eps[there], state.p[there] - state.p[here]
     if not along and stencil.arithmetic < 1.0:
-        ours, others = mine * film.eps[here], theirs * film.eps[there]
+        ours, others = mine * faces.eps[here], theirs * faces.eps[there]
         ratio = sqrt(others / ours)
         opening = opening_power(stencil, state.h[here], state.h[there])
         face = both(stencil, ours, others, opening)
@@ -192,10 +192,10 @@ def _add_face(state: Coarse, stencil: Stencil, work: Work, n: int) -> None:
             by_h[n] += drop * opens / state.h[there]
         mine *= ratio + stencil.arithmetic * (opening - ratio)
         theirs *= 1.0 / ratio + stencil.arithmetic * (1.0 / opening - 1.0 / ratio)
-    by_p[HERE] += drop * mine * film.eps_p[here] - face
-    by_h[HERE] += drop * mine * film.eps_h[here]
-    by_p[n] += face + drop * theirs * film.eps_p[there]
-    by_h[n] += drop * theirs * film.eps_h[there]
+    by_p[HERE] += drop * mine * faces.eps_p[here] - face
+    by_h[HERE] += drop * mine * faces.eps_h[here]
+    by_p[n] += face + drop * theirs * faces.eps_p[there]
+    by_h[n] += drop * theirs * faces.eps_h[there]
 
 
 @helper

@@ -229,12 +229,8 @@ def _load_node(
     """Copy the fields of a node to a place, record and lane."""
     (j, i), (at, lane), ny = node, place, film.p.shape[0]
     south, north = row_below(j, ny), row_above(j, ny)
-    eps_x, eps_y, cells, rest = (
-        film.eps_x,
-        film.eps_y,
-        relaxation.systems.cells,
-        relaxation.systems.rest,
-    )
+    eps_x, eps_y, systems = film.eps_x, film.eps_y, relaxation.systems
+    cells, rest = systems.cells, systems.rest
     half_x, (half_s, half_n) = 0.5 * stencil.cx, sides(film, stencil, j)
     cells[at, EAST, lane] = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
     across = half_n * both_y(film, stencil, eps_y, (j, i), north)
@@ -543,16 +539,14 @@ def complementarity(nodes: Records, span: Span, last: int) -> Span:
 @helper
 def _store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span) -> None:
     """Apply the solution of a line: points at once, dipoles to ``delta``."""
-    j, lane = place
+    (j, lane), cells = place, relaxation.systems.cells
     if is_reversed(film, j):
         for k in range(span[0], span[1]):
             node = j, film.p.shape[1] - 1 - k
-            _store_node(
-                film, relaxation, node, relaxation.systems.cells[k + EMPTY_MARGIN_NODES, U, lane]
-            )
+            _store_node(film, relaxation, node, cells[k + EMPTY_MARGIN_NODES, U, lane])
         return
     for i in range(span[0], span[1]):
-        u = relaxation.systems.cells[i + EMPTY_MARGIN_NODES, U, lane]
+        u = cells[i + EMPTY_MARGIN_NODES, U, lane]
         _store_node(film, relaxation, (j, i), u)
 
 

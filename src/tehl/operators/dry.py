@@ -136,9 +136,7 @@ def dry_pressure(grid: Grid, groups: Groups) -> Array:
     return groups.shape.dry_pressure(grid.x[None, :], grid.y[:, None])
 
 
-def start_pressure(
-    grid: Grid, groups: Groups, load: float | None = None, curvature: float = 1.0
-) -> Array:
+def start_pressure(grid: Grid, groups: Groups, load: float, curvature: float) -> Array:
     """Return the dry pressure to start from: that of a wider contact if no node would carry it.
 
     The domain of a rigid contact (M < 1) is hundreds of half-widths long. Without any pressure a
@@ -150,8 +148,8 @@ def start_pressure(
         Nodes X, Y in Hertz half-widths.
     groups : Groups
         Shape of the contact.
-    load : float or None
-        Integral of the pressure at the moment of the start [-]; None is that of the contact.
+    load : float
+        Integral of the pressure at the moment of the start [-].
     curvature : float
         1/R_x at that moment, over that of the contact [-].
 
@@ -161,7 +159,6 @@ def start_pressure(
         Carries the load, if it is wider, on half-widths of `START_CELLS` cells [-].
     """
     shape = groups.shape
-    load = shape.load if load is None else load
     width, highest = shape.grown(load / shape.load, curvature)
     cell = max(grid.dx, grid.dy if grid.ny > 1 else 0.0)
     if groups.roller is not None:

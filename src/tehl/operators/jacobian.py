@@ -270,7 +270,7 @@ def _opening_power(stencil: Stencil, here: Array, there: Array, way: int) -> Arr
 
 
 def _both(stencil: Stencil, here: Array, there: Array, way: int, power: Array) -> Array:
-    """Return twice the conductance of faces, as `tehl.kernels.reynolds` has it."""
+    """Return twice the conductance of faces, as `tehl.kernels.faces` has it."""
     if _is_arithmetic(stencil, way):
         return there + here
     geometric, apart = 2.0 * np.sqrt(here * there), power * here + there / power

@@ -111,7 +111,7 @@ def conductance(stencil: Stencil, here: Array, there: Array) -> Array:
     Parameters
     ----------
     stencil : Stencil
-        Decides the mean, as `tehl.kernels.reynolds` has it.
+        Decides the mean, as `tehl.kernels.faces` has it.
     here, there : Array
         eps = rho H^3/(eta lambda) [-] at the nodes on both sides of each face, of one shape.
     """

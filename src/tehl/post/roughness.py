@@ -223,7 +223,7 @@ def in_contact(result: Solution, reach: float = 1.0) -> BoolArray:
     result : Solution
         Decides the nodes.
     reach : float
-        Size of the ellipse over that of Hertz [-].
+        Size of the region over that of the Hertz contact [-].
     """
     at = result.groups.shape.radius_squared(result.scaled.x, result.scaled.y[:, None])
     inside: BoolArray = at < reach**2
@@ -263,7 +263,7 @@ def area_below(result: Solution, threshold: float) -> float:
     Parameters
     ----------
     result : Solution
-        By the areas of its nodes in the Hertz ellipse.
+        By the areas of its nodes in the Hertz contact; of a roller, in that of its slices.
     threshold : float
         Film thickness [m].
     """

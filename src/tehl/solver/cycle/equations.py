@@ -68,7 +68,7 @@ class Outside(NamedTuple):
 
 
 class Solids(NamedTuple):
-    """What carries load beside the oil."""
+    """The bodies: how curved they are, and what carries load beside the oil."""
 
     asperities: AsperityTable | None
     """Laws of asperities finer than the grid; None without."""
@@ -101,7 +101,7 @@ class Equations:
     outside: Outside
     """The oil beyond the edges."""
     solids: Solids
-    """What carries load beside the oil."""
+    """How curved the bodies are, and what carries load beside the oil."""
     floor: float
     """Least film in the conductance [-]: the discrete film of coarse grids may not be positive."""
     entrainment: Entrainment

@@ -233,6 +233,5 @@ def secant(film: Film) -> Film:
 
 def cavity_of(equations: Equations) -> ZeroPressure:
     """Return the cavities of a level by its equations."""
-    return (
-        ZeroPressure() if equations.outside.layer is None else Conserving(equations.outside.layer)
-    )
+    layer = equations.outside.layer
+    return ZeroPressure() if layer is None else Conserving(layer)

@@ -273,10 +273,8 @@ class BoundaryContact(OilAlone):
         """
         if self.response is None or not self.touching.any():
             return
-        gap, pressed = (
-            np.where(self.touching, self.boundary.separation - level.separation, 0.0),
-            self.held,
-        )
+        missing, pressed = self.boundary.separation - level.separation, self.held
+        gap = np.where(self.touching, missing, 0.0)
         if not gap.any():
             return
         self.flattening.deflect(gap, pressed)
@@ -340,7 +338,7 @@ class BoundaryContact(OilAlone):
 
     def parts(self, level: Carried) -> dict[str, float]:
         """Return the parts of the load where the surfaces touch, and on asperities elsewhere."""
-        load, (film, meets) = self.equations.balances.load, (level.film, self.meets(level))
+        load, (film, meets) = self.equations.balances, (level.film, self.meets(level))
         touching = load.integral(np.where(meets, film.p + film.asperity, 0.0))
         found = {"contact_share": touching / level.sources.load}
         if isinstance(self.beneath, Summits):
@@ -353,9 +351,8 @@ class BoundaryContact(OilAlone):
         film, meets = level.film, self.meets(level)
         apart = self.beneath.rubbing(level)
         elsewhere = np.zeros(film.p.shape) if apart is None else apart[0]
-        stress = np.where(
-            meets, self.equations.solids.friction * (film.p + film.asperity), elsewhere
-        )
+        rubbed = self.equations.solids.friction * (film.p + film.asperity)
+        stress = np.where(meets, rubbed, elsewhere)
         return stress, np.where(meets, 0.0, 1.0)
 
     def widening(self, level: Carried) -> Array:
@@ -373,7 +370,7 @@ class BoundaryContact(OilAlone):
         if layer is None or layer.max() > self.boundary.film:
             self.beneath.start(level, expected_film)
             return
-        oil, dry = np.zeros(grid.shape), dry_pressure(grid, self.equations.groups)
+        oil, dry = np.zeros(grid.shape), self.equations.start_pressure()
         level.set_state(oil, 0.0, dry)
         level.update()
         level.move(self.boundary.separation - central_value(grid, level.separation))
