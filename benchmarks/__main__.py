@@ -15,7 +15,6 @@ from benchmarks import (
     line_page,
     mixed,
     order,
-    pairs,
     rate,
     rough,
     speed,
@@ -37,7 +36,6 @@ TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "asperities": asperities.tables,
     "mixed": mixed.table,
     "touching": touching.tables,
-    "pairs": pairs.table,
     "rolling": line_page.tables,
     "directions": directions.tables,
 }
@@ -64,7 +62,7 @@ def main() -> None:
     tables = []
     for topic in given.topics or BY_DEFAULT:
         make = TOPICS[topic]
-        if topic in ("rough", "asperities", "mixed", "touching", "pairs"):
+        if topic in ("rough", "asperities", "mixed", "touching"):
             make = partial(make, given.points)
         made = make(quick=given.quick)
         for table in [made] if isinstance(made, Table) else made:
