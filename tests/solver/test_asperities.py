@@ -607,6 +607,21 @@ def test_soft_summits_of_a_bearing_do_not_press_the_start_into_each_other():
     assert found.load_sharing.share < 1e-4
 
 
+def test_summits_higher_than_the_bodies_are_pressed_in_start_near_their_dry_contact():
+    """sigma 70 films, 12 times the approach: pressed in as by Hertz, they carried too much to end.
+
+    On 65 nodes the share is within 0.1 % of that on 257, and the approach within 0.01 %.
+    """
+    _, _, drawn = any_contacts.contact(131, 22, tables_at_once=True)
+    problem = drawn.model_copy(update={"thermal": None})
+    run = multigrid(problem, Options(points=65))
+    from_dry_pressure(run.levels[0], run.hierarchy.expected_film)
+    assert solve_coarsest(run.hierarchy, newton=False)
+    found = solve(problem, Options(points=65))
+    assert found.load_sharing.share == pytest.approx(0.4932, rel=1.5e-3)
+    assert found.film_scaled.central == pytest.approx(296.911, rel=1e-4)
+
+
 def test_the_mean_gap_determines_the_separation_however_far_the_planes_cross():
     laws = asperity_table(ScaledProblem.of(rough(100.0, 8.0, 0.5))).laws
     slopes = np.diff(laws.gap[:, 0]) / laws.grid[1]

@@ -74,9 +74,10 @@ class AsperityTable:
         found: Array = np.interp(separation, self.separations, slopes, right=1.0)
         return found
 
-    def pressure(self, separation: float) -> float:
-        """Return the pressure of the asperities at a separation of the mean planes [-]."""
-        return float(np.interp(separation, self.separations, self.laws.pressure[:, 0], right=0.0))
+    def pressure(self, separation: Array) -> Array:
+        """Return the pressure of the asperities at separations of the mean planes [-]."""
+        curve = self.laws.pressure[:, 0]
+        return np.asarray(np.interp(separation, self.separations, curve, right=0.0))
 
     def separation(self, gap: float) -> float:
         """Return the separation of the mean planes at a mean gap [-]."""

@@ -48,6 +48,9 @@ class Carried(Protocol):
     def load_error(self) -> float:
         """Return the relative error of the load."""
 
+    def missing_load(self) -> float:
+        """Return the load that nothing carries [-]."""
+
 
 class OilAlone:
     """No solid carries load: the film is the separation of the surfaces.

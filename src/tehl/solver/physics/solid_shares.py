@@ -29,9 +29,10 @@ LARGEST_SHARE_FROM_HERTZ = 0.1
 """Share of the load by formula up to which cycles start from the Hertz pressure. Ten contacts of
 shares 1e-9 to 0.04 converge from it and not from the dry contact; one of share 1 takes 27 cycles
 from the dry contact and 50 from that of Hertz."""
-DRY_STEPS, DRY_PART, DRY_ERROR = 100, 0.5, 1e-4
-"""Most steps to a dry contact; change of the rigid approach over the missing part of the load; and
-that part and the change of a pressure that end them: it is only a start."""
+DRY_STEPS, DRY_PART, DRY_ERROR, RIGID_HALVINGS = 100, 0.5, 1e-4, 40
+"""Most steps to a dry contact; part of a Newton step of the rigid approach that is taken; and the
+missing part of the load and the change of a pressure that end them: it is only a start. Halvings of
+the separation of asperities on bodies that do not yield."""
 
 MOST_TOUCH = 0.75
 """Full weighting of the fine nodes that touch from which on a coarse one does: it is inside of a
@@ -113,7 +114,7 @@ class Summits(OilAlone):
         middle = self.table.separation(expected_film)
         grid, groups = self.equations.grid, self.equations.groups
         level.set_state(self.equations.start_pressure(), dry_motions(grid, groups), 0.0)
-        if self.table.pressure(middle) <= LARGEST_SHARE_FROM_HERTZ:
+        if self.table.pressure(np.asarray(middle)) <= LARGEST_SHARE_FROM_HERTZ:
             level.update()
         else:
             self._press_dry(level)
@@ -125,26 +126,48 @@ class Summits(OilAlone):
         """Return the Hertz pressure, ``grid.shape``, and the approach under it [-]."""
         equations = self.equations
         pressure = dry_pressure(equations.grid, equations.groups)
+        return pressure, self._deflection(pressure)
+
+    def _deflection(self, pressure: Array) -> float:
+        """Return the deflection in the middle [-]."""
         deflection = np.empty_like(pressure)
-        equations.deformation.deflect(pressure, deflection)
-        return pressure, central_value(equations.grid, deflection)
+        self.equations.deformation.deflect(pressure, deflection)
+        return central_value(self.equations.grid, deflection)
+
+    def _pressed_rigid(self, level: Carried) -> tuple[Array, float]:
+        """Return the pressure of asperities on bodies that hardly yield, and the approach [-]."""
+        low, high = 0.0, float(self.table.separations[-1])
+        for _ in range(RIGID_HALVINGS):
+            middle = 0.5 * (low + high)
+            pressure = self.table.pressure(level.sources.film + middle)
+            carries = self.equations.balances.integral(pressure) > level.sources.load
+            low, high = (middle, high) if carries else (low, middle)
+        return pressure, self._deflection(pressure) - middle
 
     def _press_dry(self, level: Carried) -> None:
-        """Let dry asperities carry the load, from the Hertz pressure on.
+        """Let dry asperities carry the load.
 
-        Where oil is cavitated they follow their law; the rigid approach follows the load, which
-        grows as its power 3/2 (Hertz).
+        From the Hertz pressure on, or, where they are higher than the bodies are pressed in, from
+        that of asperities on bodies that hardly yield: pressed in as by Hertz they would carry a
+        million times the load. Where oil is cavitated they follow their law; the rigid approach
+        follows the load by damped Newton steps, on bodies that yield by `reach`.
         """
         pressure, approach = self._pressed()
+        longest = approach + self.table.sigma
+        if self.table.sigma > approach:
+            pressure, approach = self._pressed_rigid(level)
         rigid = dry_motions(self.equations.grid, self.equations.groups, -approach)
         level.set_state(np.zeros_like(pressure), rigid, pressure)
-        missing, solids = -level.load_error(), level.film.asperity
+        level.update()
+        solids = level.film.asperity
         for _ in range(DRY_STEPS):
-            before = solids.copy()
-            level.move(-DRY_PART * min(max(missing, -1.0), 1.0))
+            before, stiffness = solids.copy(), level.film.stiffness
+            slope = self.equations.balances.integral(stiffness / (1.0 + self.reach * stiffness))
+            change = DRY_PART * level.missing_load() / max(slope, 1e-300)
+            level.move(-min(max(change, -longest), longest))
             level.update()
-            missing = -level.load_error()
-            if max(abs(missing), float(np.abs(solids - before).max())) <= DRY_ERROR:
+            error = abs(level.load_error())
+            if max(error, float(np.abs(solids - before).max())) <= DRY_ERROR:
                 return
 
 
@@ -186,7 +209,8 @@ class BoundaryContact(OilAlone):
         self.boundary = Boundary(film=least, separation=least)
         if isinstance(beneath, Summits):
             separation = beneath.table.separation(least)
-            self.boundary = Boundary(least, separation, beneath.table.pressure(separation))
+            carried = float(beneath.table.pressure(np.asarray(separation)))
+            self.boundary = Boundary(least, separation, carried)
         self.is_steep, self.lowest, self.reach = beneath.is_steep, beneath.lowest, beneath.reach
         self.touching, self.lowered = np.zeros(shape, bool), np.zeros(shape, bool)
         self.held, self.injected = np.zeros(shape), np.zeros(shape)
