@@ -1,7 +1,9 @@
-"""A piece of a ground tooth that goes on along y: ridges along, across and at random.
+"""A piece of a ground tooth that goes on along y: ridges along, across, oblique and at random.
 
-A gear tooth is many times as long as its roughness is coarse, so a piece between two mirrors stands
-for all of it: `ends = "mirrored"`.
+A gear tooth is many times as long as its roughness is coarse, so a piece stands for all of it:
+between two mirrors with `ends = "mirrored"`, which takes any heights; again and again with
+`ends = "periodic"`, where a whole number of waves must fit. An oblique lay goes on as it is there;
+mirrors make zigzags of it, with a thinner film at a bend.
 
 **Ridges along the flow** guide the oil into the gaps beside them: the film on crests is thinner.
 
@@ -16,15 +18,21 @@ import matplotlib.pyplot as plt
 import tehl
 
 HEIGHT = {"type": "wave", "amplitude": "60 nm", "wavelength": "100 um"}
+OBLIQUE = HEIGHT | {"angle": "45 deg", "wavelength": f"{100 * 2**0.5} um"}
 SURFACES = {
-    "smooth": {},
-    "along": HEIGHT | {"angle": "90 deg"},
-    "across": HEIGHT,
-    "random": {"type": "random", "rms": "40 nm", "correlation_length": "30 um", "seed": 2},
+    "smooth": ({}, "mirrored"),
+    "along": (HEIGHT | {"angle": "90 deg"}, "mirrored"),
+    "across": (HEIGHT, "mirrored"),
+    "oblique": (OBLIQUE, "periodic"),
+    "zigzag": (OBLIQUE, "mirrored"),
+    "random": (
+        {"type": "random", "rms": "40 nm", "correlation_length": "30 um", "seed": 2},
+        "mirrored",
+    ),
 }
 
 
-def tooth(roughness: dict[str, object]) -> tehl.Result:
+def tooth(roughness: dict[str, object], ends: str) -> tehl.Result:
     """Return the film of a piece of 0.2 mm."""
     return tehl.solve(
         tehl.ContactProblem(
@@ -32,7 +40,7 @@ def tooth(roughness: dict[str, object]) -> tehl.Result:
                 "type": "roller",
                 "radius": "10 mm",
                 "length": "0.2 mm",
-                "ends": "mirrored",
+                "ends": ends,
                 "hertz_pressure": "0.8 GPa",
                 "entrainment_speed": "2 m/s",
             },
@@ -46,7 +54,7 @@ def tooth(roughness: dict[str, object]) -> tehl.Result:
 
 def main() -> dict[str, tehl.Result]:
     """Return the films over the kind of roughness."""
-    found = {name: tooth(roughness) for name, roughness in SURFACES.items()}
+    found = {name: tooth(*surface) for name, surface in SURFACES.items()}
     for name, result in found.items():
         central, least = 1e9 * result.film.central, 1e9 * result.film.minimum
         print(f"{name:>7}: central film {central:.0f} nm, minimum {least:.0f} nm")
@@ -57,7 +65,7 @@ if __name__ == "__main__":
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
     folder.mkdir(parents=True, exist_ok=True)
     found = main()
-    figure, axes = plt.subplots(len(found), sharex=True, layout="constrained", figsize=(7, 6))
+    figure, axes = plt.subplots(len(found), sharex=True, layout="constrained", figsize=(7, 8))
     for ax, (name, result) in zip(axes, found.items(), strict=True):
         drawn = ax.pcolormesh(
             1e3 * result.x, 1e3 * result.y, 1e9 * result.film_thickness, vmin=350, vmax=600

@@ -312,3 +312,5 @@ def test_ridges_along_the_flow_thin_the_film_of_a_ground_tooth():
     central = {name: result.film.central for name, result in found.items()}
     assert central["along"] < 0.95 * central["smooth"]
     assert central["smooth"] < central["across"]
+    # mirrors turn an oblique lay into a zigzag
+    assert found["zigzag"].film.minimum < 0.98 * found["oblique"].film.minimum

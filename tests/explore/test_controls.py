@@ -105,6 +105,7 @@ def test_a_roller_becomes_a_piece_that_goes_on_or_tilts_by_a_moment():
     }
     expected = {
         ("contact.ends", "mirrored"): set(),
+        ("contact.ends", "periodic"): set(),
         ("contact.ends", "open"): of_a_whole - {"contact.tilting_moment"},
         ("contact.tilting_moment|tilt", "tilting_moment"): of_a_whole - {"contact.tilt"},
         ("contact.tilting_moment|tilt", "tilt"): of_a_whole - {"contact.tilting_moment"},

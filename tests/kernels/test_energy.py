@@ -48,7 +48,7 @@ class Station:
         numbers = dict.fromkeys(records.Terms._fields, 0.0)
         numbers |= {"poiseuille": 7.0, "over_x": 30.0, "over_y": 20.0}
         numbers |= {"w0": 1.5, "w1": -2.0, "w2": 0.5, "inlet": UNITS.temperature}
-        terms = records.Terms(**numbers)._replace(mirror=1, mean=0, heat=1)
+        terms = records.Terms(**numbers)._replace(mirror=1, period=0, mean=0, heat=1)
         self.model = records.Model(SCHEMES[scheme](nodes), law_table(lubricant, UNITS), terms)
         self.work = records.scratch(nodes, ROWS, 1)
         random = np.random.default_rng(4)

@@ -14,6 +14,7 @@ from tehl.estimate.grid import Grid
 from tehl.operators.deformation import (
     DirectDeformation,
     FftDeformation,
+    Flattening,
     LineDeformation,
     choose,
 )
@@ -219,6 +220,42 @@ def test_lines_that_crowd_at_the_ends_of_a_roller_are_bent_as_even_ones(mirror):
     for column in (0, 16):
         there = np.interp(crowded.y, even.y, expected[:, column])
         np.testing.assert_allclose(found[:, column], there, rtol=3e-3)
+
+
+def test_a_film_that_wraps_is_bent_by_its_neighbours_beyond_both_ends():
+    ends = Domain.model_construct(x=(-2.0, 2.0), y=(-1.0, 1.0))
+    grid = Grid(nx=33, ny=17, domain=ends, mirror=False, wraps=True)
+    numbers = replace(contact_groups(3.0), roller=Roller(length=1.0, goes_on=True, wraps=True))
+    pressure = np.random.default_rng(3).random(grid.shape)
+    pressure[:, [0, -1]], pressure[-1] = 0.0, pressure[0]
+    exact, found, shifted, even = np.empty((4, *grid.shape))
+    choose("direct", grid, numbers).deflect(pressure, exact)
+    choose("auto", grid, numbers).deflect(pressure, found)
+    np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-13 * exact.max())
+    # wherever the ends are; and as between mirrors if it is even about them
+    rows = (np.arange(17) + 5) % 16
+    choose("auto", grid, numbers).deflect(pressure[rows], shifted)
+    np.testing.assert_allclose(shifted, found[rows], rtol=0.0, atol=1e-13 * exact.max())
+    pressure += pressure[::-1]
+    choose("auto", grid, numbers).deflect(pressure, found)
+    half = replace(grid, mirror=True, wraps=False)
+    choose("auto", half, numbers).deflect(pressure[8:], even[8:])
+    np.testing.assert_allclose(found[8:], even[8:], rtol=0.0, atol=1e-13 * exact.max())
+
+
+@pytest.mark.parametrize("wraps", [True, False])
+def test_a_pressure_is_found_from_the_film_that_it_makes(wraps):
+    ends = Domain.model_construct(x=(-2.0, 2.0), y=(-1.0, 1.0))
+    grid = Grid(nx=33, ny=17, domain=ends, mirror=False, wraps=wraps)
+    roller = Roller(length=1.0, goes_on=True, wraps=wraps)
+    numbers, (film, found) = replace(contact_groups(3.0), roller=roller), np.empty((2, *grid.shape))
+    x, y = grid.x[None], grid.y[:, None]
+    pressure = np.exp(-40.0 * x**2) * (2.0 + np.cos(np.pi * y) + wraps * np.sin(2.0 * np.pi * y))
+    choose("auto", grid, numbers).deflect(pressure, film)
+    Flattening(grid, numbers).deflect(film, found)
+    # exact but for what lies beyond the ends of x
+    inside = slice(8, 25)
+    np.testing.assert_allclose(found[:, inside], pressure[:, inside], atol=0.1 * pressure.max())
 
 
 @pytest.mark.parametrize("mirror", [True, False])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl.operators.full_source import FullSource
+from tehl.operators.full_source import WRAPS, FullSource
 
 PER_DISTANCE = 1.0 / (2.0 * np.pi)
 
@@ -46,6 +46,18 @@ def test_a_source_between_mirrors_is_that_of_a_row_of_images(peclet):
     row = np.tile(np.concatenate([flux, flux[-2:0:-1]]), (81, 1))  # 40 periods on each side
     whole = FullSource(row.shape, 0, cell, velocity, 1.0).rise(row)[40 * 16 : 40 * 16 + 9]
     np.testing.assert_allclose(found, whole, rtol=0.0, atol=5e-4 * found.max())
+
+
+@pytest.mark.parametrize("peclet", [0.5, 5.0])
+def test_a_source_that_wraps_is_that_of_a_row_of_images(peclet):
+    flux = np.random.default_rng(3).random((13, 17))
+    flux[-1] = flux[0]
+    cell, velocity = (0.05, 0.1), (peclet, 0.0)
+    found = FullSource(flux.shape, WRAPS, cell, velocity, 1.0).rise(flux)
+    row = np.tile(flux[:-1], (81, 1))  # 40 periods on each side
+    whole = FullSource(row.shape, 0, cell, velocity, 1.0).rise(row)[40 * 12 : 40 * 12 + 13]
+    np.testing.assert_allclose(found, whole, rtol=0.0, atol=5e-4 * found.max())
+    assert np.array_equal(found[-1], found[0])
 
 
 def test_the_heat_of_a_surface_that_runs_backwards_goes_the_other_way():

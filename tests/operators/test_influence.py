@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from tehl.operators.influence import (
     Influence,
     LineInfluence,
-    MirroredInfluence,
+    PeriodicInfluence,
     dense_matrix,
     influence_of,
 )
@@ -29,7 +29,7 @@ def test_a_square_cell_deflects_its_own_centre_by_four_d_asinh_one():
 
 def test_lines_between_mirrors_are_together_a_line_contact():
     columns, lines = np.arange(60), 32
-    mirrored = MirroredInfluence(0.05, 0.04, 1.0, lines)
+    mirrored = PeriodicInfluence(0.05, 0.04, 1.0, lines)
     table = mirrored.table(lines // 2 + 1, columns.size)
     # the difference of two lines is that of as many images as one likes
     many = 60 * lines

@@ -9,7 +9,7 @@ from tehl.base.typing import Array
 from tehl.contact.options import ROLLER_ENDS, Domain
 from tehl.estimate.grid import Grid
 from tehl.kernels import cavities, faces, properties, reynolds
-from tehl.kernels.faces import Stencil
+from tehl.kernels.faces import CLOSED, Stencil
 from tehl.operators.influence import influence_of, matrix_of
 from tehl.operators.reynolds import (
     line_influence,
@@ -214,12 +214,14 @@ def test_dipoles_on_lines_that_crowd_have_no_load_and_bend_their_line_as_stated(
     shapes, matrix = line_shapes(grid, influence, (0.25, 0.25)), matrix_of(grid, influence)
     rows = grid.shape[0]
     for j in range(rows):
-        change, neighbours = np.zeros(grid.shape), (row_below(j, rows), row_above(j, rows))
+        change = np.zeros(grid.shape)
+        neighbours = row_below(j, rows, CLOSED), row_above(j, rows, CLOSED)
         along, aside, *_ = shapes.parts[j]
         change[j, i], change[j, [i - 1, i + 1]] = 1.0, -along
         for row in set(neighbours):
             # as a sweep adds them: from the north to the line south and from the south
-            for side, beside in ((2, row_below(row, rows)), (3, row_above(row, rows))):
+            south, north = row_below(row, rows, CLOSED), row_above(row, rows, CLOSED)
+            for side, beside in ((2, south), (3, north)):
                 change[row, i] -= shapes.parts[row, side] if beside == j else 0.0
         loads = change.sum(axis=1) * grid.widths
         assert loads.sum() == pytest.approx(0.0, abs=1e-12 * grid.widths[j])

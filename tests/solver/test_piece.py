@@ -1,4 +1,6 @@
-"""Pieces of rollers that go on behind mirrors: as a line contact, over one period or two."""
+"""Pieces of rollers that go on: behind mirrors, or with the film of their other end."""
+
+import math
 
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ from tehl.contact.options import Options
 STEEL = {"material": "steel"}
 LINE_FILM = 0.0297827
 """Central film of the line contact, on 257 nodes to the tolerance [-]."""
+THINNING = {"name": "mineral-oil", "shear": {"law": "eyring", "stress": 5e6}}
 HEAT = {"thermal": {"temperature": "40 degC", "sources": "full"}}
 
 
@@ -31,6 +34,19 @@ def ridged(wavelength: str, amplitude: str = "50 nm") -> dict[str, object]:
     """Return a surface with ridges along x, a crest at y = 0."""
     wave = {"type": "wave", "amplitude": amplitude, "wavelength": wavelength, "angle": "90 deg"}
     return STEEL | {"roughness": wave}
+
+
+def oblique(angle: float, phase: str = "0 deg", amplitude: str = "30 nm") -> dict[str, object]:
+    """Return a surface with a wave at an angle [deg], one period of which along y is 0.2 mm."""
+    wave = {"type": "wave", "amplitude": amplitude, "angle": f"{angle} deg", "phase": phase}
+    wave["wavelength"] = f"{0.2 * abs(math.sin(math.radians(angle)))!r} mm"
+    return STEEL | {"roughness": wave}
+
+
+def periodic(**stated: object) -> tehl.ContactProblem:
+    """Return a piece of 0.2 mm that repeats itself."""
+    kind = stated.pop("kind", {})
+    return piece("0.2 mm", kind={"ends": "periodic"} | kind, **stated)
 
 
 @pytest.mark.parametrize(
@@ -83,6 +99,107 @@ def test_a_film_over_one_period_is_that_over_two():
     assert float(np.ptp(one.scaled.film[:, 64])) > 0.1 * one.film_scaled.central
 
 
+PHYSICS = {
+    "isothermal": {},
+    "starved": {"supply": {"ratio": 0.6}},
+    "heated": {"kind": {"slide_roll_ratio": 0.3}, "lubricant": THINNING} | HEAT,
+    "marched": {
+        "kind": {"slide_roll_ratio": 0.3},
+        "lubricant": THINNING,
+        "thermal": {"temperature": "40 degC", "sources": "line"},
+    },
+    "counter-moving": {
+        "kind": {"slide_roll_ratio": 2.5, "moes_load": 5.0, "moes_speed": 3.0},
+        "thermal": {"temperature": "40 degC"},
+    },
+    "asperities": {
+        "asperities": {
+            "model": "greenwood-tripp",
+            "summit_radius": "10 um",
+            "summit_density": "2e10 1/m^2",
+            "rms": "0.15 um",
+        }
+    },
+    "touching": {
+        "contact_film": {"thickness": "80 nm", "friction": 0.1},
+        "surface_2": ("500 nm",),
+    },
+}
+
+
+@pytest.mark.parametrize("physics", PHYSICS)
+def test_a_film_that_wraps_does_not_depend_on_where_its_ends_are(physics):
+    """A quarter of a period on the phase is eight lines, and the wave at -60 degrees its image."""
+    stated, options = (
+        dict(PHYSICS[physics]),
+        Options(points=(129, 33), wedge_order=3, accuracy="tight"),
+    )
+    amplitude = stated.pop("surface_2", ("30 nm",))
+    waves = oblique(60.0, "0 deg", *amplitude), oblique(60.0, "90 deg", *amplitude)
+    first, moved, image = (
+        tehl.solve(periodic(surface_2=one, **stated), options)
+        for one in (*waves, oblique(-60.0, "0 deg", *amplitude))
+    )
+    rows = (np.arange(33) - 8) % 32
+    for one, other, place in ((moved, first, rows), (image, first, slice(None, None, -1))):
+        assert one.scaled.film == pytest.approx(other.scaled.film[place], rel=1e-6)
+        assert one.scaled.pressure == pytest.approx(other.scaled.pressure[place], abs=1e-5)
+        if first.temperature is not None:
+            mean = other.temperature.mean[place]
+            assert one.temperature.mean == pytest.approx(mean, abs=1e-5)
+    assert float(np.ptp(first.scaled.film[:, 64])) > 0.005 * first.film_scaled.central
+    if physics == "touching":
+        assert first.touching.share > 0.1
+
+
+def test_a_wave_that_is_even_about_both_ends_is_that_between_mirrors():
+    options = {"points": (129, 33), "wedge_order": 3, "accuracy": "tight"}
+    even = {"surface_2": ridged("0.2 mm")}
+    mirrored = tehl.solve(piece("0.2 mm", **even), Options(**options))
+    halves = tehl.solve(periodic(**even), Options(**options))
+    whole = tehl.solve(periodic(**even), Options(half_domain="never", **options))
+    assert np.array_equal(halves.scaled.film, mirrored.scaled.film)
+    assert whole.scaled.film == pytest.approx(mirrored.scaled.film, rel=3e-6)
+
+
+def test_an_oblique_wave_moves_through_a_film_that_wraps_wherever_its_ends_are():
+    runs = [
+        tehl.solve_transient(
+            periodic(
+                surface_2=oblique(45.0, phase),
+                kind={"slide_roll_ratio": 0.3},
+                transient={"frames": 5, "duration": "0.2 ms", "start": "standing"},
+            ),
+            Options(points=(129, 33)),
+        )
+        for phase in ("0 deg", "90 deg")
+    ]
+    rows = (np.arange(33) - 8) % 32
+    first, moved = (run.frames.film[-1] for run in runs)
+    assert float(np.ptp(first[:, 64])) > 0.01 * float(first[:, 64].mean())
+    assert moved == pytest.approx(first[rows], rel=1e-4)  # steps end at their tolerance
+
+
+@pytest.mark.parametrize(
+    "surface",
+    [
+        oblique(60.0) | {"roughness": oblique(60.0)["roughness"] | {"wavelength": "0.17 mm"}},
+        ridged("0.4 mm"),  # as high at both ends, where it has a bend
+        STEEL | {"roughness": {"type": "random", "rms": "40 nm", "correlation_length": "30 um"}},
+    ],
+    ids=["period", "bend", "random"],
+)
+def test_heights_that_do_not_repeat_are_named(surface):
+    with pytest.raises(tehl.InputError, match=r"surface_2.roughness.*repeat along y.*mirrored"):
+        tehl.solve(periodic(surface_2=surface), Options(points=(129, 65)))
+
+
+def test_a_dimple_within_a_piece_repeats():
+    dimple = {"type": "bump", "amplitude": "0.1 um", "radius": "20 um"}
+    found = tehl.solve(periodic(surface_2=STEEL | {"roughness": dimple}), Options(error="5 %"))
+    assert found.status.converged
+
+
 def test_cycles_on_cells_shorter_along_y_halve_lines_first():
     """Columns first, no cycles converge: Newton's method does, after 172 steps of all kinds."""
     options = Options(points=(257, 65), wedge_order=3, accuracy="tight")
@@ -111,6 +228,11 @@ def test_a_piece_has_as_many_lines_as_its_waves_need():
         ({}, {"stress": {}}, "whole contact"),
         ({"slide_roll_ratio": 2.0}, {"thermal": {"temperature": "40 degC"}}, "at rest"),
         ({"type": "point"}, {}, "has ends"),
+        (
+            {"ends": "periodic", "slide_roll_ratio": 0.2, "sliding_angle": "20 deg"},
+            {},
+            "within ends",
+        ),
     ],
 )
 def test_what_a_piece_cannot_state_is_said_in_one_sentence(kind, stated, reason):

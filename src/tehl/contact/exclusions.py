@@ -45,9 +45,11 @@ def check_motion(problem: PointContact) -> None:
             contact.has_lines and turned != ["sliding_angle"],
             "with spin the speed changes along a line",
         ),
-        'contact.ends = "mirrored"': (
-            contact.ends == "mirrored",
-            "behind a mirror the surfaces would slide the other way along y",
+        f'contact.ends = "{contact.ends}"': (
+            contact.ends != "open",
+            "behind a mirror the surfaces would slide the other way along y"
+            if contact.ends == "mirrored"
+            else "so far heat and oil are carried along y within ends alone",
         ),
     }
     for name, (is_stated, why) in excluded.items():
@@ -106,7 +108,7 @@ def check_spin(problem: PointContact) -> None:
 def check_line(problem: PointContact) -> None:
     """Check that a line, or a piece of a roller that goes on, states nothing that needs ends."""
     contact = problem.contact
-    kind = 'contact.type = "line"' if contact.is_line else 'contact.ends = "mirrored"'
+    kind = 'contact.type = "line"' if contact.is_line else f'contact.ends = "{contact.ends}"'
     if not contact.is_line and contact.ends == "open":
         return
     supply, thermal = problem.supply, problem.thermal

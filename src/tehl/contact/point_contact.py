@@ -91,7 +91,8 @@ class LubricatedPair(Table):
                 length=contact.length,
                 profile=contact.profile,
                 tilt=contact.tilt,
-                goes_on=contact.ends == "mirrored",
+                goes_on=contact.ends != "open",
+                wraps=contact.ends == "periodic",
                 moment=contact.tilting_moment,
             )
         return Ellipse.of(self.radii)

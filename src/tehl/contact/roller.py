@@ -8,7 +8,7 @@ In the units of the line contact under its mean load, b along x and half the len
 with g from profile and tilt. Where the moment of the load about x is stated, g has the tilt of the
 dry contact with that moment, and that of the film follows. Beyond its ends there is no roller and
 no pressure; both bodies are half-spaces there too. A piece of a longer one goes on, mirrored at its
-ends.
+ends or repeating itself.
 """
 
 import math
@@ -40,7 +40,9 @@ class Roller(Line):
     profile: Profile | None = None
     """How it drops towards its ends; None is straight."""
     goes_on: bool = False
-    """Whether it is a piece of a longer one, mirrored at its ends."""
+    """Whether it is a piece of a longer one."""
+    wraps: bool = False
+    """Whether that is this piece again and again, else mirrored at its ends."""
     tilt: float = 0.0
     """Angle by which the gap opens along y [rad]."""
     moment: float | None = None

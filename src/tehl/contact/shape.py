@@ -36,7 +36,11 @@ class Shape(Protocol):
 
     @property
     def goes_on(self) -> bool:
-        """Whether it goes on beyond its sides, mirrored at each."""
+        """Whether it goes on beyond its sides."""
+
+    @property
+    def wraps(self) -> bool:
+        """Whether it does so with what is within the other side, else mirrored at each."""
 
     @property
     def sides(self) -> tuple[float, float]:
@@ -100,7 +104,7 @@ class Ellipse:
     """s of the rim, and C of the gap X^2/2 + C X Y + D kappa^2 Y^2/2; zero on the axes."""
 
     speed_power = 0.75
-    as_line = goes_on = False
+    as_line = goes_on = wraps = False
     sides = LINE_WIDTH
     widest = 1.0
 
@@ -242,7 +246,7 @@ class Line:
     area = 2.0
     speed_power = 0.5
     across = 0.0
-    as_line, goes_on = True, False
+    as_line, goes_on, wraps = True, False, False
     sides = LINE_WIDTH
 
     @property

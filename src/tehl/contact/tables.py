@@ -152,9 +152,10 @@ class ContactShape(_WithRadii):
     theirs."""
     length: Length | None = None
     """Of a roller [m]: that on which it touches its raceway, without chamfers."""
-    ends: Literal["open", "mirrored"] = "open"
-    """Of a roller: those of its length, or mirrors, behind which it goes on, film and roughness
-    too: a piece of a gear tooth or of a long roller."""
+    ends: Literal["open", "mirrored", "periodic"] = "open"
+    """Of a roller: those of its length; mirrors, behind which it goes on, film and roughness too;
+    or periodic, where it goes on with the film and roughness of the other end: a piece of a gear
+    tooth or of a long roller."""
     profile: Profile | None = None
     """How far a roller drops towards its ends; None is straight."""
     tilt: Angle = 0.0

@@ -165,7 +165,8 @@ def _grids(scaled: ScaledProblem, plan: Options) -> list[Grid]:
     domain, (ny, nx) = domain_of(scaled, plan), plan.shape
     halves = plan.half_domain == "auto" and scaled.problem.is_even_in_y
     mirror = halves and can_mirror(plan.shape, domain)
-    finest, touches = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror), scaled.problem.asperities
+    wraps, touches = scaled.groups.shape.wraps and not mirror, scaled.problem.asperities
+    finest = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror, wraps=wraps)
     if has_long_cells(finest, scaled.groups.ellipticity, touches=touches is not None):
         goes_on = scaled.groups.shape.goes_on
         return long_grids(finest, coarsest_of(finest, COARSEST_MESH, goes_on=goes_on))

@@ -49,6 +49,8 @@ class Grid:
     """In Hertz half-widths."""
     mirror: bool
     """Only y >= 0 is stored; row 0 is the symmetry line."""
+    wraps: bool = False
+    """The film goes on beyond the last row with that of the first one, which it is again."""
     crowding: float = 0.0
     """c of the lines of a roller, which crowd at two places: their density is the sum of
     1/(w + |Y - e|) over both, w = 1/tanh(c) - 1; uniform if zero."""
@@ -151,6 +153,24 @@ class Grid:
         found = np.full(self.shape[0], (2.0 if self.mirror else 1.0) * self.dy)
         found[[0, -1]] *= 0.5
         return found
+
+    def beyond(self, field: Array, rows: int) -> tuple[Array, Array]:
+        """Return the rows of a field before its first one and behind its last one, from south on.
+
+        None where the field ends, images at symmetry lines and closed ends, those of the other end
+        where the film wraps.
+
+        Parameters
+        ----------
+        field : Array
+            Values of the stored rows, even about symmetry lines.
+        rows : int
+            On each side.
+        """
+        if self.wraps:
+            return field[-1 - rows : -1], field[1 : rows + 1]
+        before = field[rows:0:-1] if self.mirror or self.is_closed else field[:0]
+        return before, field[-2 : -2 - rows : -1] if self.is_closed else field[:0]
 
     def unfold(self, field: Array) -> Array:
         """Return ``field`` on the full domain, (ny, nx)."""

@@ -404,7 +404,8 @@ def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
     domain, (ny, nx) = domain_of(scaled, options), options.shape
     halves = options.half_domain == "auto" and scaled.problem.is_even_in_y
     mirror = halves and can_mirror(options.shape, domain)
-    grid = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror)
+    wraps = scaled.groups.shape.wraps and not mirror
+    grid = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror, wraps=wraps)
     if not (grid.is_closed and crowds_at_ends(scaled.problem)):
         return grid
     cell = max(END_CELL * expected_central_film(scaled.entering) ** 0.5, SHORTEST_CELL)

@@ -258,6 +258,13 @@ def check_supply(scaled: ScaledProblem, domain: Domain) -> None:
             f"{1e3 * supply.profile[-1][0]:.4g} mm and does not cover the domain, {least:.4g} to "
             f"{most:.4g} mm: add places there"
         )
+    ends = oil(np.array(domain.y))
+    if supply.profile is not None and scaled.groups.shape.wraps and not np.isclose(*ends):
+        first, last = (1e6 * one * scales.film_thickness for one in ends)
+        raise InputError(
+            f"supply.profile: {first:.4g} um at one end of the piece and {last:.4g} um at the "
+            'other; with contact.ends = "periodic" both must be the same'
+        )
     gap = 0.5 * domain.x[0] ** 2
     if oil.central > gap:
         raise InputError(

@@ -131,9 +131,12 @@ def roller_ends(state: State) -> Choice | None:
     contact, path = state.problem.contact, "contact.ends"
     if contact.type != "roller":
         return None
-    piece: Settings = {path: "mirrored"} | {f"contact.{key}": None for key in _OF_A_WHOLE_ROLLER}
-    whole: Settings = {path: None}
-    options = {"open": ("free", whole), "mirrored": ("it goes on, mirrored", piece)}
+    straight: Settings = {f"contact.{key}": None for key in _OF_A_WHOLE_ROLLER}
+    options: dict[str, tuple[str, Settings]] = {
+        "open": ("free", {path: None}),
+        "mirrored": ("it goes on, mirrored", {path: "mirrored"} | straight),
+        "periodic": ("it repeats itself", {path: "periodic"} | straight),
+    }
     return _choice(path, "ends of the roller", contact.ends, options)
 
 

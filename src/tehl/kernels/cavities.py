@@ -135,7 +135,8 @@ def _face_flow(film: Film, stencil: Stencil, j: int, i: int) -> float:
 def _flow_into(film: Film, stencil: Stencil, j: int, i: int) -> tuple[float, float]:
     """Return the pressure flow into a partly filled cell, and what of it comes back downstream."""
     p, eps_x, eps_y = film.p, film.eps_x, film.eps_y
-    south, north, here = row_below(j, p.shape[0]), row_above(j, p.shape[0]), film.p[j, i]
+    south = row_below(j, p.shape[0], stencil.mirror)
+    north, here = row_above(j, p.shape[0], stencil.mirror), film.p[j, i]
     half_x, (half_s, half_n) = 0.5 * stencil.cx, sides(film, stencil, j)
     gained = half_n * both_y(film, stencil, eps_y, (j, i), north) * (p[north, i] - here)
     gained += half_s * both_y(film, stencil, eps_y, (j, i), south) * (p[south, i] - here)

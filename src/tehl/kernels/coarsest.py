@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel
-from tehl.kernels.faces import CLOSED, STEADILY, Stencil, both, opening_power
+from tehl.kernels.faces import CLOSED, STEADILY, WRAPPED, Stencil, both, opening_power
 from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import flux_weights, inner_end
 
@@ -101,10 +101,16 @@ class Work(NamedTuple):
 
 
 @helper
+def _solved_end(ny: int, mirror: int) -> int:
+    """Return the row before which the unknowns end: one that wraps is the first one again."""
+    return ny - 1 if mirror >= WRAPPED else inner_end(ny, mirror)
+
+
+@helper
 def _find_free(state: Coarse, system: CoarseSystem, mirror: int, nx: int, free: IntArray) -> int:
     """List the nodes with p > 0 or residual < 0 that are not frozen; return their count."""
     count = 0
-    for j in range(0 if mirror else 1, inner_end(state.p.shape[0] // nx, mirror)):
+    for j in range(0 if mirror else 1, _solved_end(state.p.shape[0] // nx, mirror)):
         for here in range(j * nx + 1, j * nx + nx - 1):
             wet = state.p[here] != 0.0 or system.residual[here] < 0.0
             if wet and not system.frozen[here]:
@@ -120,7 +126,7 @@ def _find_carrying(state: Coarse, system: CoarseSystem, shape: tuple[int, int], 
     Return their count. ``shape``: mirror, and nodes of a row.
     """
     count, (mirror, nx) = 0, shape
-    for j in range(0 if mirror else 1, inner_end(state.p.shape[0] // nx, mirror)):
+    for j in range(0 if mirror else 1, _solved_end(state.p.shape[0] // nx, mirror)):
         for here in range(j * nx + 1, j * nx + nx - 1):
             wet = state.p[here] != 0.0 or system.residual[here] < 0.0
             work.dry[here] = not wet or system.frozen[here] > 0
@@ -152,11 +158,18 @@ def _touch(state: Coarse, system: CoarseSystem, work: Work) -> None:
 
 
 @helper
-def _find_neighbours(here: int, nx: int, nodes: int, near: IntArray) -> None:
-    """Fill the numbers of a node and its neighbours; one row is its own neighbour."""
+def _find_neighbours(here: int, nx: int, rows: tuple[int, int], near: IntArray) -> None:
+    """Fill the numbers of a node and its neighbours; one row is its own neighbour.
+
+    ``rows``: the number of nodes, and ``mirror``. Where the film wraps, rows are a ring.
+    """
+    nodes, mirror = rows
     near[HERE], near[EAST], near[WEST] = here, here + 1, here - 1
     near[NORTH] = here + nx if here + nx < nodes else max(here - nx, here % nx)
     near[SOUTH] = here - nx if here >= nx else near[NORTH]
+    if mirror >= WRAPPED:
+        near[NORTH] = (here + nx) % (nodes - nx)
+        near[SOUTH] = (here + nodes - 2 * nx) % (nodes - nx)
     near[FAR] = max(here - 2, here // nx * nx)
     near[ASIDE] = here
 
@@ -287,7 +300,7 @@ def _add_upstream(
     row, count, nx = place
     here = work.free[row] - 1
     while here % nx > 0 and state.partial[here]:
-        _find_neighbours(here, nx, state.p.shape[0], work.near)
+        _find_neighbours(here, nx, (state.p.shape[0], stencil.mirror), work.near)
         _clear_slopes(work)
         _add_face(state, stencil, work, NORTH)
         _add_face(state, stencil, work, SOUTH)
@@ -312,7 +325,7 @@ def _assemble(
             work.full[m] = 0.0
         for m in range(motions):
             work.matrix[row, count + m] = 0.0
-        _find_neighbours(here, nx, state.p.shape[0], work.near)
+        _find_neighbours(here, nx, (state.p.shape[0], stencil.mirror), work.near)
         _slopes(state, stencil, work)
         if state.stiffness.shape[0] > 0:
             _touch(state, system, work)

@@ -7,8 +7,10 @@ from tehl.base.typing import Array
 from tehl.kernels.compiled import helper
 from tehl.kernels.properties import Film
 
-CLOSED = 2
-"""Added to ``mirror`` where no oil flows through the ends: their rows are inner ones."""
+CLOSED, WRAPPED = 2, 4
+"""Added to ``mirror`` where no oil flows through the ends: their rows are inner ones. So they are
+where the film goes on with that of the other end, for which both are added: the last row is the
+first one again."""
 STEADILY, IN_TIME = 1, 2
 MOST_OPENING, NO_FILM = 100.0, 1e-30
 """Largest ratio of the films of two lines of a roller in the mean of their conductances, as
@@ -20,9 +22,9 @@ class Stencil(NamedTuple):
 
     ``cx = 1/dx^2``, ``cy = 1/(kappa dy)^2``; ``w0, w1, w2`` weigh rho h of a node and of its
     upstream neighbours: the wedge, in a time step wedge and squeeze at the new time; ``mirror`` is
-    1 if row 0 is a symmetry line, and 2 more where the ends are closed; ``conserves`` is `STEADILY`
-    or `IN_TIME` if oil is conserved in cavities too. In a time step what a cell holds does not
-    depend on the present of others.
+    1 if row 0 is a symmetry line, 2 where the ends are closed (3 with both), and 6 where the film
+    wraps; ``conserves`` is `STEADILY` or `IN_TIME` if oil is conserved in cavities too. In a time
+    step what a cell holds does not depend on the present of others.
     ``third`` is zero, or 1/3 of ``1/dx``: the weight of the third difference that makes a wedge of
     second order one of third order. From column ``fore`` on, behind the centre, half of it is
     added: all of it overshoots at the pressure spike. ``geometric`` is 1 where the conductance

@@ -31,6 +31,7 @@ from tehl.kernels.reynolds import (
     curved_wedge,
     flux_weights,
     inner_end,
+    join_ends,
     line_operator,
     row_above,
     row_below,
@@ -144,7 +145,7 @@ def mark_dipoles(film: Film, stencil: Stencil, relaxation: LineRelaxation) -> No
     limit = relaxation.xi / max(stencil.cx, stencil.cy)
     clear(kind)
     for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
-        south, north = row_below(j, ny), row_above(j, ny)
+        south, north = row_below(j, ny, stencil.mirror), row_above(j, ny, stencil.mirror)
         half_s, half_n = sides(film, stencil, j)
         for i in range(1, relaxation.ends[j]):
             along = max(eps_x[j, i], eps_x[j, i - 1], eps_x[j, i + 1])
@@ -175,7 +176,7 @@ def stiffen(film: Film, stencil: Stencil, flow: FlowTable, whole: int, out: Arra
     last = table.shape[0] - 2
     clear(out)
     for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
-        south, north = row_below(j, ny), row_above(j, ny)
+        south, north = row_below(j, ny, stencil.mirror), row_above(j, ny, stencil.mirror)
         half_s, half_n = sides(film, stencil, j)
         for i in range(1, nx - 1):
             p = film.p[j, i]
@@ -228,7 +229,7 @@ def _load_node(
 ) -> None:
     """Copy the fields of a node to a place, record and lane."""
     (j, i), (at, lane), ny = node, place, film.p.shape[0]
-    south, north = row_below(j, ny), row_above(j, ny)
+    south, north = row_below(j, ny, stencil.mirror), row_above(j, ny, stencil.mirror)
     eps_x, eps_y, systems = film.eps_x, film.eps_y, relaxation.systems
     cells, rest = systems.cells, systems.rest
     half_x, (half_s, half_n) = 0.5 * stencil.cx, sides(film, stencil, j)
@@ -636,6 +637,7 @@ def relax_lines(film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxa
             count = min(LANES, (inner_end(ny, stencil.mirror) + 1 - j) // 2)
             relax_batch(film, stencil, rhs, relaxation, (j, count))
     add_dipoles(film, relaxation, stencil.mirror)
+    join_ends(film.p, stencil.mirror)
 
 
 @helper
@@ -645,7 +647,7 @@ def add_dipoles(film: Film, relaxation: LineRelaxation, mirror: int) -> None:
     parts = relaxation.shapes.parts
     touches = film.stiffness.shape[0] > 0
     for j in range(0 if mirror else 1, inner_end(ny, mirror)):
-        south, north = row_below(j, ny), row_above(j, ny)
+        south, north = row_below(j, ny, mirror), row_above(j, ny, mirror)
         colour, slot, end = j % 2, j // 2, max(ends[j], ends[south], ends[north])
         along, below = parts[colour, ALONG, slot], parts[colour, FROM_SOUTH, slot]
         above = parts[colour, FROM_NORTH, slot]
@@ -679,7 +681,7 @@ def relax_points(film: Film, stencil: Stencil, rhs: Array, self_film: Array, ome
     ny, nx = film.p.shape
     p, eps_x, eps_y, rho, h = film.p, film.eps_x, film.eps_y, film.rho, film.h
     for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
-        south, upper = row_below(j, ny), row_above(j, ny)
+        south, upper = row_below(j, ny, stencil.mirror), row_above(j, ny, stencil.mirror)
         for i in range(1, nx - 1):
             east = 0.5 * stencil.cx * (eps_x[j, i] + eps_x[j, i + 1])
             west = 0.5 * stencil.cx * (eps_x[j, i] + eps_x[j, i - 1])
@@ -702,3 +704,4 @@ def relax_points(film: Film, stencil: Stencil, rhs: Array, self_film: Array, ome
             if film.speed.shape[0] > 0:
                 slope -= stencil.w0 * abs(film.drift[i]) * rho[j, i] * self_film[0]
             p[j, i] = max(p[j, i] + omega * (rhs[j, i] - flow + wedge) / slope, 0.0)
+    join_ends(p, stencil.mirror)

@@ -19,7 +19,7 @@ edge with p = 0. Fields are those of `tehl.kernels.properties`.
 
 from tehl.base.typing import Array, FlagArray
 from tehl.kernels.compiled import helper, kernel, summing_helper
-from tehl.kernels.faces import CLOSED, STEADILY, Stencil, both_x, both_y
+from tehl.kernels.faces import CLOSED, STEADILY, WRAPPED, Stencil, both_x, both_y
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
 
@@ -28,24 +28,40 @@ MARK_SECOND_ORDER, MARK_THIRD_ORDER = 1, 2
 
 
 @helper
-def row_below(j: int, ny: int) -> int:
+def row_below(j: int, ny: int, mirror: int) -> int:
     """Return the row south of row ``j``: that of row 0 is the mirror image of row 1.
 
-    A line contact has one row of ``ny``, which is its own neighbour on both sides.
+    Where the film wraps, row 0 is the last one too, and the row before that is south of it. A line
+    contact has one row of ``ny``, which is its own neighbour on both sides.
     """
-    return j - 1 if j > 0 else min(1, ny - 1)
+    if j > 0:
+        return j - 1
+    return ny - 2 if mirror >= WRAPPED else min(1, ny - 1)
 
 
 @helper
-def row_above(j: int, ny: int) -> int:
-    """Return the row north of row ``j``: beyond the last one is the mirror image of others."""
-    return j + 1 if j + 1 < ny else max(ny - 2, 0)
+def row_above(j: int, ny: int, mirror: int) -> int:
+    """Return the row north of row ``j``: beyond the last one is the mirror image of others.
+
+    Where the film wraps it is row 1.
+    """
+    if j + 1 < ny:
+        return j + 1
+    return 1 if mirror >= WRAPPED else max(ny - 2, 0)
 
 
 @helper
 def inner_end(ny: int, mirror: int) -> int:
     """Return the row before which the inner rows end: the edge, if there is more than one."""
     return ny if mirror >= CLOSED else max(ny - 1, 1)
+
+
+@helper
+def join_ends(field: Array, mirror: int) -> None:
+    """Make the last row the first one where the film wraps: rounding would part them."""
+    if mirror >= WRAPPED:
+        for i in range(field.shape[1]):
+            field[field.shape[0] - 1, i] = field[0, i]
 
 
 @helper
@@ -86,7 +102,8 @@ def line_operator(film: Film, stencil: Stencil, j: int, out: Array, place: tuple
 def _line_flow(film: Film, stencil: Stencil, j: int, out: Array, place: tuple[int, int]) -> None:
     """Write the pressure flow into each cell of line ``j`` to ``out``."""
     p, eps_x, eps_y, (row, end) = film.p, film.eps_x, film.eps_y, place
-    south, north = row_below(j, p.shape[0]), row_above(j, p.shape[0])
+    south = row_below(j, p.shape[0], stencil.mirror)
+    north = row_above(j, p.shape[0], stencil.mirror)
     half_x, (half_s, half_n) = 0.5 * stencil.cx, sides(film, stencil, j)
     for i in range(1, end):
         east = both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
@@ -282,7 +299,7 @@ def operator(film: Film, stencil: Stencil, out: Array) -> None:
 def _node_diagonal(film: Film, stencil: Stencil, self_film: float, j: int, i: int) -> float:
     """Return ``-dL/dp`` of a node with itself; ``self_film``: dh/dp of a point on itself."""
     eps_x, eps_y, ny = film.eps_x, film.eps_y, film.p.shape[0]
-    south, north = row_below(j, ny), row_above(j, ny)
+    south, north = row_below(j, ny, stencil.mirror), row_above(j, ny, stencil.mirror)
     along = both_x(stencil, eps_x[j, i], eps_x[j, i + 1]) + both_x(
         stencil, eps_x[j, i - 1], eps_x[j, i]
     )
@@ -351,7 +368,8 @@ def residual(film: Film, stencil: Stencil, rhs: Array, self_film: float, out: Ar
         line_total, line_count = _line_norm(film, stencil, self_film, j, out)
         for i in range(1, nx - 1):
             out[j, i] = out[j, i] if film.p[j, i] != 0.0 else 0.0
-        weight = 1 if (stencil.mirror and j == 0) else 1 + stencil.mirror
+        is_end = j == 0 or (stencil.mirror >= CLOSED and j == ny - 1)
+        weight = 1 if stencil.mirror == 0 or is_end else 2
         total += weight * line_total
         count += weight * line_count
     return total / max(count, 1)
@@ -369,7 +387,7 @@ def tangent_source(film: Film, stencil: Stencil, out: Array) -> None:
     ny, nx = p.shape
     half_x = 0.5 * stencil.cx
     for j in range(0 if stencil.mirror else 1, inner_end(ny, stencil.mirror)):
-        south, north = row_below(j, ny), row_above(j, ny)
+        south, north = row_below(j, ny, stencil.mirror), row_above(j, ny, stencil.mirror)
         half_s, half_n = sides(film, stencil, j)
         for i in range(1, nx - 1):
             east = both_x(stencil, eps_x[j, i], eps_x[j, i + 1])

@@ -8,7 +8,7 @@ Fine fields are (ny, nx), coarse ones ((ny+1)/2, (nx+1)/2) or as many along one 
 
 from tehl.base.typing import Array, FlagArray
 from tehl.kernels.compiled import helper, kernel
-from tehl.kernels.faces import CLOSED
+from tehl.kernels.faces import CLOSED, WRAPPED
 from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import clear, inner_end, row_above, row_below
 
@@ -21,19 +21,23 @@ def steps(fine: Array, coarse: Array) -> tuple[int, int]:
 
 
 @helper
-def beside(j: int, i: int, step: tuple[int, int], ny: int) -> tuple[int, int, int, int]:
+def beside(
+    j: int, i: int, step: tuple[int, int], rows: tuple[int, int]
+) -> tuple[int, int, int, int]:
     """Return the rows south and north and the columns west and east of a node.
 
-    They are its own where none are left out.
+    They are its own where none are left out. ``rows``: their number and ``mirror``.
     """
-    south, north = (j, j) if step[0] == 1 else (row_below(j, ny), row_above(j, ny))
+    south, north, (ny, mirror) = j, j, rows
+    if step[0] > 1:
+        south, north = row_below(j, ny, mirror), row_above(j, ny, mirror)
     return south, north, i + 1 - step[1], i - 1 + step[1]
 
 
 @helper
-def _weigh(fine: Array, j: int, i: int, step: tuple[int, int]) -> float:
+def _weigh(fine: Array, mirror: int, j: int, i: int, step: tuple[int, int]) -> float:
     """Full weighting of ``fine`` at fine node (j, i)."""
-    south, north, west, east = beside(j, i, step, fine.shape[0])
+    south, north, west, east = beside(j, i, step, (fine.shape[0], mirror))
     return (
         0.25 * fine[j, i]
         + 0.125 * (fine[j, west] + fine[j, east] + fine[south, i] + fine[north, i])
@@ -50,7 +54,7 @@ def restrict_residual(fine: Array, mirror: int, coarse: Array) -> None:
     clear(coarse)
     for j in range(0 if mirror else 1, inner_end(ny, mirror)):
         for i in range(1, nx - 1):
-            coarse[j, i] = _weigh(fine, step[0] * j, step[1] * i, step)
+            coarse[j, i] = _weigh(fine, mirror, step[0] * j, step[1] * i, step)
 
 
 @kernel
@@ -96,13 +100,13 @@ def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
                 continue
             # at the ends of a roller the pressure is steep: that of the end alone
             is_end = j == ny - 1 or (j == 0 and not mirror % CLOSED)
-            near = (1, step[1]) if is_end else step
-            south, north, west, east = beside(fj, fi, near, fine.shape[0])
+            near = (1, step[1]) if is_end and mirror < WRAPPED else step
+            south, north, west, east = beside(fj, fi, near, (fine.shape[0], mirror))
             smallest = abs(fine[fj, fi])
             for row in (south, fj, north):
                 for column in (west, fi, east):
                     smallest = min(smallest, abs(fine[row, column]))
-            coarse[j, i] = _weigh(fine, fj, fi, near) if smallest > 0.0 else fine[fj, fi]
+            coarse[j, i] = _weigh(fine, mirror, fj, fi, near) if smallest > 0.0 else fine[fj, fi]
 
 
 @kernel
@@ -205,7 +209,7 @@ def freeze(
             if coarse[j, i] > limit:
                 continue
             fj, fi = step[0] * j, step[1] * i
-            south, north, west, east = beside(fj, fi, step, fine.shape[0])
+            south, north, west, east = beside(fj, fi, step, (fine.shape[0], mirror))
             for row in (south, fj, north):
                 for column in (west, fi, east):
                     if fine[row, column] == 0.0 or fine_frozen[row, column]:

@@ -7,7 +7,7 @@ from typing import Protocol
 from weakref import WeakValueDictionary
 
 import numpy as np
-from scipy.fft import dct, dctn, idctn
+from scipy.fft import dct, dctn, idct, idctn, irfft, rfft
 
 from tehl.base.typing import Array
 from tehl.contact.shape import LINE
@@ -91,23 +91,34 @@ class Flattening:
     """Pressure that makes a deflection, by division of the cosine transforms.
 
     The inverse of K where the pressure is mirrored at the edges, an approximate one on a part of
-    the plane: it preconditions the equations of a contact.
+    the plane: it preconditions the equations of a contact. Where the film wraps along y the
+    transform along it is that of Fourier.
     """
 
     LEAST = 1e-6
     """Least part of the spectrum over its largest value."""
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
-        self.axes = (0, 1) if grid.ny > 1 else (1,)
+        self.axes, self.wraps = (0, 1) if grid.ny > 1 else (1,), grid.wraps
         table = influence_of(grid, groups).table(*grid.shape)
-        size = np.abs(dctn(table, 1, axes=self.axes))  # of a line that of the mean may be negative
+        size = np.abs(self._parts(table))  # of a line that of the mean may be negative
         self.spectrum = np.maximum(size, self.LEAST * size.max())
 
     def deflect(self, film: Array, out: Array) -> None:
         """Write the pressure that makes ``film`` to ``out``."""
-        parts = dctn(film, 1, axes=self.axes)
+        parts = self._parts(film)
         parts /= self.spectrum
-        out[:] = idctn(parts, 1, axes=self.axes, overwrite_x=True)
+        if not self.wraps:
+            out[:] = idctn(parts, 1, axes=self.axes, overwrite_x=True)
+            return
+        out[:-1] = irfft(idct(parts, 1, axis=1), film.shape[0] - 1, axis=0)
+        out[-1] = out[0]
+
+    def _parts(self, field: Array) -> Array:
+        """Return the transform of a field, or of an influence over its distances."""
+        if self.wraps:
+            return np.asarray(rfft(dct(field[:-1], 1, axis=1), axis=0))
+        return np.asarray(dctn(field, 1, axes=self.axes))
 
 
 class LineDeformation:
@@ -175,6 +186,24 @@ class MirroredDeformation:
         out[:] = dct(lines, 1, axis=0)
 
 
+class WrappedDeformation:
+    """Exact convolution where all wraps along y: by Fourier series along both axes."""
+
+    def __init__(self, grid: Grid, groups: Groups) -> None:
+        self.period = (grid.shape[0] - 1, 2 * (grid.nx - 1))
+        rows, columns = (np.minimum(np.arange(n), n - np.arange(n)) for n in self.period)
+        table = influence_of(grid, groups).table(int(rows.max()) + 1, grid.nx)
+        table = table[np.ix_(rows, columns)]
+        self.spectrum = np.fft.rfft2(table).real.copy()
+
+    def deflect(self, pressure: Array, out: Array) -> None:
+        """Write the deflection under ``pressure`` to ``out``."""
+        parts = np.fft.rfft2(pressure[:-1], self.period)
+        parts *= self.spectrum
+        out[:-1] = np.fft.irfft2(parts, self.period)[:, : pressure.shape[1]]
+        out[-1] = out[0]
+
+
 CROWDED: "WeakValueDictionary[tuple[Grid, Groups], CrowdedDeformation]" = WeakValueDictionary()
 """Of the levels in use: the dry pressure of a grid shares that of its level."""
 
@@ -219,7 +248,7 @@ def choose(name: str, grid: Grid, groups: Groups, *, exact: bool = False) -> Def
     if name == "direct":
         return DirectDeformation(grid, groups)
     if groups.shape.goes_on:
-        return MirroredDeformation(grid, groups)
+        return (WrappedDeformation if grid.wraps else MirroredDeformation)(grid, groups)
     found = _choose(name, grid, groups, exact=exact)
     return BetweenEnds(found, grid) if grid.is_closed else found
 

@@ -336,15 +336,10 @@ def pressure_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array,
     """
     slope_x = _slope_along(pressure.T, grid.dx).T
     steps = np.gradient(grid.y, edge_order=2)[:, None] if grid.crowding else grid.dy
-    slope_y = _slope_along(pressure, groups.ellipticity * steps)
-    slope_y[still_rows(grid)] = 0.0
-    return slope_x, slope_y
-
-
-def still_rows(grid: Grid) -> list[int]:
-    """Return the stored rows through which no oil flows along y: symmetry lines and ends."""
-    last = [grid.shape[0] - 1] if grid.is_closed else []
-    return [0, *last] if grid.is_closed or grid.mirror else []
+    before, behind = grid.beyond(pressure, 1)
+    slope_y = _slope_along(np.concatenate([before, pressure, behind]), 1.0)
+    slope_y = slope_y[len(before) : len(before) + len(pressure)]
+    return slope_x, slope_y / (groups.ellipticity * steps)
 
 
 def driving_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array, Array]:
@@ -364,14 +359,16 @@ def driving_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array, 
         Dimensionless.
     """
     slope_x, slope_y = pressure_slopes(grid, groups, pressure)
-    for slope, field in ((slope_x.T, pressure.T), (slope_y, pressure)):
+    before, behind = grid.beyond(pressure, 1)
+    across = slice(1 - len(before), len(pressure) - 1 + len(behind))
+    wider = np.concatenate([before, pressure, behind])
+    for slope, field in ((slope_x.T[1:-1], pressure.T), (slope_y[across], wider)):
         steps = np.diff(field, axis=0)
         product, total = steps[:-1] * steps[1:], field[2:] - field[:-2]
         factors = np.square(np.square(groups.alpha_bar / STEEP * (steps[1:] - steps[:-1])))
         rises = product > 0.0
         harmonic = np.where(rises, 4.0 * product / np.where(rises, total, 1.0) ** 2, 0.0)
-        slope[1:-1] *= 1.0 + factors / (1.0 + factors) * (harmonic - 1.0)
-    slope_y[still_rows(grid)] = 0.0
+        slope[:] *= 1.0 + factors / (1.0 + factors) * (harmonic - 1.0)
     return slope_x, slope_y
 
 

@@ -21,6 +21,8 @@ NEAR = (4, 10)
 SOURCE_IMAGES = 4
 """Images on each side that are summed one by one: the rise errs by 2e-4 of the largest at most, for
 periods of 6 to 32 columns and velocities of 0.1 to 5."""
+WRAPS = 3
+"""In place of a number of mirrors: the last row is the first one again."""
 PARTS_PER_SIDE = 5
 """Parts of a near square cell along each side; odd, so that none has a corner on the axes."""
 
@@ -33,7 +35,8 @@ class FullSource:
     shape : (int, int)
         Rows and columns of nodes that are stored.
     mirrors : int
-        1 if row 0 is a symmetry line, 2 if all goes on behind the first and the last row.
+        1 if row 0 is a symmetry line, 2 if all goes on behind the first and the last row, `WRAPS`
+        if the last row is the first one again.
     cell : (float, float)
         Sides (dy, dx) of a cell, in a_x.
     peclet : (float, float)
@@ -53,18 +56,18 @@ class FullSource:
         factor: float,
         line: float = 0.0,
     ) -> None:
-        stored, nx = shape
+        (stored, nx), wraps = shape, mirrors == WRAPS
         ny = 2 * stored - 1 if mirrors == 1 else stored
-        self.mirror, self.shape = mirrors > 0, (ny, nx)
-        self.period = (2 * (ny - 1) or 1, 2 * (nx - 1))
-        rows = np.arange(ny)
+        self.mirror, self.shape, self.wraps = mirrors > 0, (ny, nx), wraps
+        self.period = (ny - 1 if wraps else 2 * (ny - 1) or 1, 2 * (nx - 1))
+        rows = np.arange(self.period[0] // 2 + 1 if wraps else ny)
         if peclet[1] != 0.0:  # not even in y
             rows = np.arange(self.period[0])
             rows = np.where(rows < ny, rows, rows - self.period[0])
         columns = np.arange(2 * (nx - 1))
         columns = np.where(columns < nx, columns, columns - 2 * (nx - 1))
         source = _row_source if np.isinf(cell[0]) else _point_source
-        source = _mirrored_source if mirrors > 1 else source
+        source = _periodic_source if mirrors > 1 else source
         table = factor * source(rows, columns, cell, peclet)
         if line > 0.0:
             table[0] -= line * _line_cells(columns, cell[1])
@@ -75,6 +78,10 @@ class FullSource:
         """Return the temperature rise under ``flux``, both of the stored shape."""
         stored, nx = flux.shape
         padded = np.zeros(self.period)
+        if self.wraps:
+            padded[:, :nx] = flux[:-1]
+            convolved = np.fft.irfft2(np.fft.rfft2(padded) * self.spectrum, s=self.period)
+            return np.concatenate([convolved, convolved[:1]])[:, :nx].copy()
         padded[:stored, :nx] = flux
         if self.mirror:
             padded[:-stored:-1, :nx] = flux[1:]
@@ -124,10 +131,10 @@ def _split(
     return np.asarray(pieces.reshape(shape).sum(axis=(1, 3)))
 
 
-def _mirrored_source(
+def _periodic_source(
     rows: IntArray, columns: IntArray, cell: tuple[float, float], peclet: tuple[float, float]
 ) -> Array:
-    """Return the same of a cell and its images behind mirrors on the first and the last row.
+    """Return the same of a cell and its images, at all multiples of a period of twice the rows.
 
     Rows of one period together are a `_row_source`, from which the part of images far away follows:
     they differ little from row to row.

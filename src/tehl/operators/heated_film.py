@@ -169,6 +169,7 @@ def _film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
         w1=w1,
         w2=w2,
         mirror=int(grid.mirror),
+        period=grid.shape[0] - 1 if grid.wraps else 0,
         mean=MEANS[film_energy(problem).reynolds],
         inlet=scales.temperature,
         heat=int(isinstance(problem.heat, FilmEnergy)),

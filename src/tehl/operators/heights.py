@@ -22,6 +22,9 @@ from tehl.roughness.waves import HarmonicModel
 
 LEAST_NODES = 4.0
 """Nodes per wavelength below which a wave is aliased."""
+ENDS_APART, ROWS_BESIDE = 0.01, 2
+"""Difference of the heights at both ends of a piece that repeats itself, over their range, above
+which they are not the same ones; and rows on both sides of each end that are compared."""
 
 
 class UnresolvedError(InputError):
@@ -71,7 +74,7 @@ def full_weighting(field: Array, fine: Grid, coarse: Grid) -> Array:
     Parameters
     ----------
     field : Array
-        Values on ``fine``; constant beyond its edges, mirrored at symmetry lines and closed ends.
+        Values on ``fine``; constant beyond its edges, else as `Grid.beyond` has it.
     fine, coarse : Grid
         Grids, of which ``coarse`` may have as many lines or columns.
 
@@ -81,9 +84,10 @@ def full_weighting(field: Array, fine: Grid, coarse: Grid) -> Array:
         Of the shape of ``coarse``.
     """
     if coarse.shape[0] < fine.shape[0]:
-        first, last = fine.mirror or fine.is_closed, fine.is_closed
-        south, north = field[1 if first else 0], field[-2 if last else -1]
-        field = _means(np.concatenate([south[None], field, north[None]]))
+        south, north = fine.beyond(field, 1)
+        south = south if len(south) else field[:1]
+        north = north if len(north) else field[-1:]
+        field = _means(np.concatenate([south, field, north]))
     if coarse.nx < fine.nx:
         field = _means(np.pad(field, ((0, 0), (1, 1)), mode="edge").T).T
     return field
@@ -121,8 +125,8 @@ def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
     parts: list[Roughness] = []
     for surface in problem.surfaces:
         resolved = surface.roughness.resolved_on(grid.dx * width, grid.dy * length)
-        field = np.broadcast_to(resolved.height(x, y), grid.shape)
-        values.append(np.ascontiguousarray(field / scales.film_thickness))
+        field = np.broadcast_to(resolved.height(x, y), grid.shape) / scales.film_thickness
+        values.append(_joined(np.ascontiguousarray(field), grid))
         waves.append(resolved.shortest_wavelengths)
         parts += resolved.summands
     along, across = (min(pair) for pair in zip(*waves, strict=True))
@@ -133,6 +137,50 @@ def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
     shortest = shortest_of_formulas(parts)
     check_nodes(min(shortest[0] / (grid.dx * width), shortest[1] / (grid.dy * length)))
     return heights
+
+
+def _joined(heights: Array, grid: Grid) -> Array:
+    """Make the last row the first one where the film wraps, in place; return the heights."""
+    if grid.wraps:
+        heights[-1] = heights[0]
+    return heights
+
+
+def check_ends(scaled: ScaledProblem, grid: Grid) -> None:
+    """Check that the heights of a piece that repeats itself are the same ones at both ends.
+
+    Also where they come from: upstream and downstream by twice the domain.
+
+    Parameters
+    ----------
+    scaled, grid : ScaledProblem, Grid
+        The surfaces, and nodes to whose mesh widths measured ones are filtered.
+
+    Raises
+    ------
+    InputError
+        If they differ by more than `ENDS_APART`, or a measured surface cannot be read.
+    """
+    if not scaled.groups.shape.wraps:
+        return
+    (width, length), (low, high) = units_of(grid, scaled.scales), grid.domain.y
+    columns = np.arange(-2 * grid.nx, 3 * grid.nx)
+    x, y = width * (grid.x[0] + grid.dx * columns)[None], grid.y[:, None] * length
+    near = grid.dy * np.arange(-ROWS_BESIDE, ROWS_BESIDE + 1.0)[:, None]
+    for number, surface in enumerate(scaled.problem.surfaces, 1):
+        resolved = surface.roughness.resolved_on(grid.dx * width, grid.dy * length)
+        size = float(np.ptp(resolved.height(x, y)))
+        south, north = (resolved.height(x, (end + near) * length) for end in (low, high))
+        apart = float(np.abs(south - north).max())
+        if apart > ENDS_APART * size:
+            piece = 1e3 * length * (high - low)
+            raise InputError(
+                f"surface_{number}.roughness: the heights beside both ends of the piece differ by "
+                f"{100.0 * apart / size:.2g} % of their range; with contact.ends = "
+                f'"periodic" they must repeat along y after contact.length = {piece:.6g} mm, as '
+                "waves do of which a whole number fits; "
+                'contact.ends = "mirrored" takes any heights'
+            )
 
 
 def units_of(grid: Grid, scales: Scales) -> tuple[float, float]:
@@ -220,7 +268,7 @@ class MovingHeights:
         width, length = units_of(grid, scales)
         self.x, self.y = grid.x[None, :] * width, grid.y[:, None] * length
         self.widths = (width, length)
-        self.shape, self.unit = grid.shape, scales.film_thickness
+        self.grid, self.shape, self.unit = grid, grid.shape, scales.film_thickness
         self.front = None if entrance is None else entrance * width
         stride = 1 if problem.transient is None else problem.transient.stride
         self.surfaces = tuple(
@@ -295,4 +343,4 @@ class MovingHeights:
                 inside = np.clip((-self.front - body) / fade, 0.0, 1.0)
                 height = height * (0.5 - 0.5 * np.cos(math.pi * inside))
             total += height
-        return total
+        return _joined(total, self.grid)

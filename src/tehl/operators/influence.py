@@ -142,8 +142,8 @@ class LineInfluence(Influence):
         return self(np.arange(rows)[:, None], np.arange(columns)[None, :])
 
 
-class MirroredInfluence(Influence):
-    """Influence of a cell and its images, where all goes on along y, mirrored at both sides.
+class PeriodicInfluence(Influence):
+    """Influence of a cell and its images, where all goes on along y, mirrored or wrapping.
 
     Together the lines of a period are a `LineInfluence`, which fixes the constant of the sum.
 
@@ -152,7 +152,7 @@ class MirroredInfluence(Influence):
     dx, dy, factor : float
         As of `Influence`.
     lines : int
-        Lines of a period, twice the distance of the sides.
+        Lines of a period: twice the distance of mirrors, and that of ends which wrap.
     """
 
     IMAGES = 8
@@ -166,7 +166,7 @@ class MirroredInfluence(Influence):
         """Return the influence at offsets of ``dj`` rows and ``di`` columns; slices are ranges."""
         rows, columns = np.broadcast_arrays(_offsets(dj), _offsets(di))
         images = self.lines * np.arange(-self.IMAGES, self.IMAGES + 1.0)
-        near = sum(super(MirroredInfluence, self).__call__(rows + far, columns) for far in images)
+        near = sum(super(PeriodicInfluence, self).__call__(rows + far, columns) for far in images)
         return np.asarray(near + self._far(rows, columns))
 
     def _far(self, rows: Array, columns: Array) -> Array:
@@ -196,13 +196,20 @@ class MirroredInfluence(Influence):
         return np.asarray(found)
 
     def matrix(self, grid: Grid) -> Array:
-        """Return the film at each node per unit pressure of each node and its images, (n, n)."""
+        """Return the film at each node per unit pressure of each node and its images, (n, n).
+
+        The first row of a film that wraps has all of the line that is its last one too.
+        """
         ny, nx = grid.shape
         rows, i = np.arange(ny), np.arange(nx)
         table = self.table(ny, nx)
-        lines = table[np.abs(rows[:, None] - rows)]
-        images = rows[:, None] + rows[1:-1]  # those of the sides are their own
-        lines[:, 1:-1] += table[np.minimum(images, self.lines - images)]
+        apart = np.abs(rows[:, None] - rows)
+        lines = table[np.minimum(apart, self.lines - apart)]
+        if grid.wraps:
+            lines[:, -1] = 0.0
+        else:
+            images = rows[:, None] + rows[1:-1]  # those of the sides are their own
+            lines[:, 1:-1] += table[np.minimum(images, self.lines - images)]
         blocks = lines[:, :, np.abs(i[:, None] - i)].transpose(0, 2, 1, 3)
         return np.asarray(blocks.reshape(2 * (ny * nx,)))
 
@@ -258,8 +265,8 @@ def influence_of(grid: Grid, groups: Groups) -> Influence:
     if groups.shape is LINE:
         return LineInfluence(grid.dx, groups.deflection_factor)
     if groups.shape.goes_on:
-        dy, lines = groups.ellipticity * grid.dy, 2 * (grid.shape[0] - 1)
-        return MirroredInfluence(grid.dx, dy, groups.deflection_factor, lines)
+        dy, lines = groups.ellipticity * grid.dy, (grid.shape[0] - 1) * (1 if grid.wraps else 2)
+        return PeriodicInfluence(grid.dx, dy, groups.deflection_factor, lines)
     return Influence(grid.dx, groups.ellipticity * grid.dy, groups.deflection_factor)
 
 
@@ -275,7 +282,7 @@ def matrix_of(grid: Grid, influence: Influence) -> Array:
         lines, i = influence.between(grid), np.arange(grid.nx)
         blocks = lines[:, :, np.abs(i[:, None] - i)].transpose(0, 2, 1, 3)
         return blocks.reshape(2 * (lines.shape[0] * grid.nx,))
-    if isinstance(influence, MirroredInfluence):
+    if isinstance(influence, PeriodicInfluence):
         return influence.matrix(grid)
     found = dense_matrix(grid.shape, grid.mirror, influence)
     if grid.is_closed:  # as in `tehl.operators.deformation.BetweenEnds`

@@ -97,12 +97,15 @@ def neighbour(
         Factor on all entries.
     closed : bool
         Whether rows beyond the first and last one are those before it: no oil flows through the
-        ends of a roller.
+        ends of a roller. Where the film wraps they are those of the other end.
     """
     ny, nx = grid.shape
     j, i = np.nonzero(inner)
     there = np.abs(j + rows) if grid.mirror or closed else j + rows if ny > 1 else j
-    if closed:
+    if grid.wraps:
+        there = j + rows
+        there += (ny - 1) * ((there < 0).astype(int) - (there >= ny))
+    elif closed:
         there = ny - 1 - np.abs(ny - 1 - there)
     column = i + columns
     inside = (there >= 0) & (there < ny) & (column >= 0) & (column < nx)
@@ -362,15 +365,20 @@ def interpolation(fine: Grid, coarse: Grid) -> csr_matrix:
     Parameters
     ----------
     fine, coarse : Grid
-        Of the same domain; the coarse one may be any number of halvings below.
+        Of the same domain; the coarse one may be any number of halvings below. Where the film
+        wraps its first row counts for the last one too, which has no weight.
 
     Returns
     -------
     csr_matrix
         Of shape (ny nx of ``fine``, ny nx of ``coarse``).
     """
-    lines = (_between(nf, nc) for nf, nc in zip(fine.shape, coarse.shape, strict=True))
-    return csr_matrix(kron(*lines))
+    across, along = (_between(nf, nc) for nf, nc in zip(fine.shape, coarse.shape, strict=True))
+    if coarse.wraps:
+        rows_of = np.arange(coarse.shape[0]) % (coarse.shape[0] - 1)
+        ring = (np.ones(rows_of.size), (np.arange(rows_of.size), rows_of))
+        across = across @ csr_matrix(ring, shape=(rows_of.size, rows_of.size))
+    return csr_matrix(kron(across, along))
 
 
 def _between(fine: int, coarse: int) -> csr_matrix:

@@ -13,7 +13,7 @@ from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.spin import spin_number
-from tehl.kernels.faces import CLOSED, IN_TIME, STEADILY, Stencil
+from tehl.kernels.faces import CLOSED, IN_TIME, STEADILY, WRAPPED, Stencil
 from tehl.kernels.properties import Film
 from tehl.kernels.reynolds import MARK_THIRD_ORDER
 from tehl.operators.influence import Influence
@@ -65,7 +65,7 @@ def steady_stencil(
         w0=w0,
         w1=w1,
         w2=w2,
-        mirror=int(grid.mirror) + (CLOSED if grid.is_closed else 0),
+        mirror=int(grid.mirror) + CLOSED * grid.is_closed + WRAPPED * grid.wraps,
         conserves=STEADILY if conserves else 0,
         third=speed / (3.0 * grid.dx) if wedge_order > 2 else 0.0,
         fore=int(np.searchsorted(grid.x, 0.0)),

@@ -19,7 +19,7 @@ from tehl.contact.heat import LEAST_LINE, FilmEnergy, rubbing_parts, source_form
 from tehl.contact.point_contact import PointContact
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem, Scales
-from tehl.operators.full_source import FullSource
+from tehl.operators.full_source import WRAPS, FullSource
 from tehl.operators.line_source import line_rise
 from tehl.operators.stream_source import StreamSource, row_speed
 from tehl.operators.transfer import midpoints
@@ -189,11 +189,13 @@ class Solids:
         self.stride = 2 if fine and rows % 2 == 0 and columns % 2 == 0 else 1
         shape = (rows // self.stride + 1, columns // self.stride + 1)
         self.between = _between(grid, shape[0]) if grid.crowding else None
+        behind = WRAPS if grid.wraps else 2
+        mirrors = behind if groups.shape.goes_on else int(grid.mirror)
         cell = (self.stride * groups.ellipticity * grid.dy, self.stride * grid.dx)
         self.sources = tuple(
             FullSource(
                 shape,
-                2 if groups.shape.goes_on else int(grid.mirror),
+                mirrors,
                 cell,
                 (side.peclet, side.peclet_y),
                 flux_unit * scales.half_width_x / (2.0 * np.pi * side.conductivity),

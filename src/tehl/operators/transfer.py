@@ -39,12 +39,10 @@ def refine_signed(pressure: Array, fine: Grid) -> Array:
     """
     field = pressure if fine.nx == pressure.shape[1] else _cubic_along_x(pressure)
     if fine.shape[0] != pressure.shape[0]:
-        # two mirrored rows make a symmetry line or a closed end an inner one
-        first, last = fine.mirror or fine.is_closed, fine.is_closed
-        field = np.concatenate(([field[2:0:-1]] if first else []) + [field])
-        field = np.concatenate([field] + ([field[-2:-4:-1]] if last else []))
-        field = _cubic_along_x(field.T).T
-        field = field[4 * first : len(field) - 4 * last]
+        # two more rows make a symmetry line or a closed end an inner one
+        before, behind = fine.beyond(field, 2)
+        field = _cubic_along_x(np.concatenate([before, field, behind]).T).T
+        field = field[2 * len(before) : len(field) - 2 * len(behind)]
     return field
 
 

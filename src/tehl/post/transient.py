@@ -275,7 +275,8 @@ def _heights(run: TransientSolution, frame: int) -> SurfaceHeights | None:
         return SurfaceHeights(surface_1=flat, surface_2=together)
     x, y = run.start.scaled.x, run.start.scaled.y
     domain = Domain(x=(float(x[0]), float(x[-1])), y=(float(y[0]), float(y[-1])))
-    grid = Grid(nx=x.size, ny=y.size, domain=domain, mirror=False)
+    wraps = run.start.scaled_problem.groups.shape.wraps
+    grid = Grid(nx=x.size, ny=y.size, domain=domain, mirror=False, wraps=wraps)
     entrance = problem.transient.entrance if problem.transient.start == "smooth" else None
     units = run.start.scales
     moving = MovingHeights(run.start.scaled_problem, grid, entrance)

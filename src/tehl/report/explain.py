@@ -30,7 +30,7 @@ from tehl.estimate.settled import settled
 from tehl.estimate.starvation import check_supply, starved_degree, supply_ratio
 from tehl.estimate.summits import SharedLoad, shared_load
 from tehl.lubricant.pressure import UNCERTAINTY
-from tehl.operators.heights import units_of
+from tehl.operators.heights import check_ends, units_of
 from tehl.report.expected_heat import (
     BodyEffect,
     ExpectedHeat,
@@ -245,6 +245,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     domain, (ny, nx) = domain_of(scaled, options), options.shape
     check_supply(scaled, domain)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
+    check_ends(scaled, grid)
     along, across = units_of(grid, scaled.scales)
     mesh = (grid.dx * along, grid.dy * across)
     heights = asperities(problem, options, mesh, likely_film(scaled).central_m)

@@ -15,12 +15,12 @@ from tehl.estimate.domain import domain_of
 from tehl.estimate.film_formulas import check_film
 from tehl.estimate.grid import Grid
 from tehl.estimate.memory import check_memory
-from tehl.estimate.nodes import planned
+from tehl.estimate.nodes import finest_grid, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.estimate.starvation import FORMULA_ERROR, Flooded, check_supply
 from tehl.kernels.warmup import warm_up
-from tehl.operators.heights import heights_of, units_of
+from tehl.operators.heights import check_ends, heights_of, units_of
 from tehl.operators.resolution import resolution_of
 from tehl.result.fields import SurfaceHeights
 from tehl.result.solution import (
@@ -167,6 +167,8 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     plan = goal.fitting(planned(scaled, options))
     check_supply(scaled, domain_of(scaled, plan))
     check_film(scaled)
+    if rough:
+        check_ends(scaled, finest_grid(scaled, plan))
     check_memory(plan, problem)
     heights = cache(partial(heights_of, scaled) if rough else _no_heights)
     # at other accuracies full multigrid is done before a better start saves a cycle

@@ -196,7 +196,7 @@ def solve_block(model: Model, work: Work, layers: Records) -> None:
 
 
 @helper
-def carry_sideways(work: Work) -> None:
+def carry_sideways(terms: Terms, work: Work) -> None:
     """Add to each row the change of the row upstream along y, weighted by the inflow.
 
     As columns take their neighbours along y from the last sweep, changes would move by one row per
@@ -205,11 +205,12 @@ def carry_sideways(work: Work) -> None:
     """
     numbers, changes = work.numbers, work.changes
     blocks, n = work.layers.shape
+    rows = terms.period + 1 if terms.period > 0 else blocks * LANES
     for step in (1, -1):
         for k in range(1, n - 1):
             changes[k] = 0.0
-        for count in range(blocks * LANES):
-            row = count if step > 0 else blocks * LANES - 1 - count
+        for count in range(rows):
+            row = count if step > 0 else rows - 1 - count
             block, lane = row // LANES, row % LANES
             for k in range(1, n - 1):
                 part = step * numbers[block, k, SIDEWAYS, lane]
@@ -218,3 +219,21 @@ def carry_sideways(work: Work) -> None:
                     new += part * changes[k]
                     numbers[block, k, NEW_T, lane] = new
                 changes[k] = new - numbers[block, k, T, lane]
+
+
+@helper
+def join_ends(terms: Terms, work: Work) -> None:
+    """Give both ends of a film that wraps the temperature of the one with the inflow.
+
+    They are one row, which `carry_sideways` comes to from either side. Their walls must not part
+    either: a flux between the temperatures of two rows grows from station to station.
+    """
+    numbers, n = work.numbers, work.layers.shape[1]
+    if terms.period == 0:
+        return
+    block, lane = terms.period // LANES, terms.period % LANES
+    for k in range(n):
+        last, first = numbers[block, k, NEW_T, lane], numbers[0, k, NEW_T, 0]
+        new = last if 0 < k < n - 1 and numbers[0, k, SIDEWAYS, 0] > 0.0 else first
+        numbers[block, k, NEW_T, lane] = new
+        numbers[0, k, NEW_T, 0] = new

@@ -138,6 +138,9 @@ def complete_mass(terms: Terms, work: Work, i: int) -> None:
         first, second = mass_y[k, 1], mass_y[k, 2]
         mass_y[k, 0] = -second if terms.mirror else 2.0 * first - second
         mass_y[k, ny + 1] = 2.0 * mass_y[k, ny] - mass_y[k, ny - 1]
+        if terms.period > 0:
+            mass_y[k, 0] = mass_y[k, terms.period]
+            mass_y[k, terms.period + 2] = second
     if i > 1:
         return
     here, last, before = i % 3, (i + 2) % 3, (i + 1) % 3

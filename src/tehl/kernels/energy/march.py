@@ -7,7 +7,7 @@ in plain numpy.
 
 from tehl.base.typing import Array
 from tehl.kernels.compiled import helper, kernel
-from tehl.kernels.energy.column import carry_sideways, inner_rows, solve_block
+from tehl.kernels.energy.column import carry_sideways, inner_rows, join_ends, solve_block
 from tehl.kernels.energy.flow import (
     complete_mass,
     flow,
@@ -17,7 +17,7 @@ from tehl.kernels.energy.flow import (
 )
 from tehl.kernels.energy.laws import evaluate_laws, exponential, limited
 from tehl.kernels.energy.outputs import write_block
-from tehl.kernels.energy.records import BLOCK, GHOSTS, Fields, Model, Place, Surfaces, Work
+from tehl.kernels.energy.records import BLOCK, GHOSTS, Fields, Model, Place, Surfaces, Terms, Work
 from tehl.kernels.energy.walls import keep_wall, wall_row
 from tehl.kernels.lanes import Lanes, greater, largest, lesser, where
 from tehl.kernels.raw import lanes, raw
@@ -63,11 +63,16 @@ def _load_block(model: Model, fields: Fields, work: Work, place: Place) -> None:
 
 
 @helper
-def _mirror_station(temperature: Array, i: int) -> None:
-    """Fill the ghost rows of a symmetry line."""
+def _fill_ghosts(terms: Terms, temperature: Array, i: int) -> None:
+    """Fill the ghost rows of a symmetry line, or beyond both ends of a film that wraps."""
     for k in range(temperature.shape[1]):
         for ghost in range(1, GHOSTS + 1):
-            temperature[i, k, GHOSTS - ghost] = temperature[i, k, GHOSTS + ghost]
+            if terms.mirror:
+                temperature[i, k, GHOSTS - ghost] = temperature[i, k, GHOSTS + ghost]
+            elif terms.period > 0:
+                last = GHOSTS + terms.period
+                temperature[i, k, GHOSTS - ghost] = temperature[i, k, last - ghost]
+                temperature[i, k, last + ghost] = temperature[i, k, GHOSTS + ghost]
 
 
 @helper
@@ -159,7 +164,8 @@ def _march_station(
         complete_mass(model.terms, work, i)
         for block in range(blocks):
             _heat_block(model, fields, surfaces, work, Place(i, block))
-        carry_sideways(work)
+        carry_sideways(model.terms, work)
+        join_ends(model.terms, work)
     for block in range(blocks):
         line, layers = work.lines[block], work.layers[block]
         if model.terms.heat:
@@ -196,8 +202,7 @@ def _march_back(model: Model, fields: Fields, work: Work) -> None:
     """
     last = int(work.back[0]) - 1
     for i in range(last, -1, -1):
-        if model.terms.mirror:
-            _mirror_station(fields.temperature, i + GHOSTS)
+        _fill_ghosts(model.terms, fields.temperature, i + GHOSTS)
         _back_station(model, fields, work, i, i == last)
 
 
@@ -227,8 +232,7 @@ def sweep(
         _march_back(model, fields, work)
     clear(work)
     for i in range(fields.p.shape[0]):
-        if model.terms.mirror:
-            _mirror_station(fields.temperature, i + GHOSTS)
+        _fill_ghosts(model.terms, fields.temperature, i + GHOSTS)
         _march_station(model, fields, surfaces, work, i, steps)
     return largest(work.change[lanes(0)])
 

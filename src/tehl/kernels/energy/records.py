@@ -109,7 +109,8 @@ class Terms(NamedTuple):
     the centre; ``spin`` (omega_2 - omega_1) a_x/u_m, ``spin_1`` that of surface 1; ``plain`` 1
     where all of it is along x; ``over_x, over_y`` 1/dx and the mean 1/(kappa dy); ``over_t`` weight
     of the present in the time derivative, 0 if steady; ``w0, w1, w2`` upstream weights; ``mirror``
-    whether row 0 is a symmetry line; ``mean`` 0 local properties, 1 mean ones in Reynolds, 2 mean
+    whether row 0 is a symmetry line; ``period`` rows after which the film wraps, zero if it does
+    not; ``mean`` 0 local properties, 1 mean ones in Reynolds, 2 mean
     ones everywhere; ``inlet`` temperature; ``heat`` 0 keeps the temperature.
     """
 
@@ -131,6 +132,7 @@ class Terms(NamedTuple):
     w1: float
     w2: float
     mirror: int
+    period: int
     mean: int
     inlet: float
     heat: int

@@ -46,6 +46,9 @@ class CoarsestSolver:
         equations = level.equations
         grid = equations.grid
         self.influence = matrix_of(grid, equations.influence)
+        self.widths = grid.widths
+        if grid.wraps:  # its last line is not an unknown: the first one has all of its width
+            self.widths = np.append(2.0 * self.widths[:1], [*self.widths[1:-1], 0.0])
         self.last: Factored | None = None
 
     def step(self) -> None:
@@ -86,7 +89,7 @@ class CoarsestSolver:
             residual=residual_of(level).ravel(),
             influence=self.influence,
             frozen=level.smoother.frozen.ravel(),
-            area=np.repeat(level.grid.widths * level.grid.dx, level.grid.nx),
+            area=np.repeat(self.widths * level.grid.dx, level.grid.nx),
             lift=np.repeat(level.equations.balances.modes, level.grid.nx, axis=1)
             * (1.0 if answer is None else answer.lift.ravel()),
             missing=level.missing(),
@@ -135,6 +138,10 @@ class CoarsestSolver:
         work.rhs[:used] = step
         state = known.state._replace(p=film.p.ravel(), asperity=film.asperity.ravel())
         part = take_step(state, system, work, known.size, LONGEST_STEP)
+        if level.grid.wraps:
+            film.p[-1] = film.p[0]
+            if film.asperity.size:
+                film.asperity[-1] = film.asperity[0]
         change = part * work.rhs[known.size : used]
         level.move(change)
         if level.equations.solids.asperities is not None:

@@ -112,6 +112,9 @@ class Level:
         """
         self.film.p[:] = pressure
         self.film.asperity[:] = asperity
+        if self.grid.wraps:  # the last row is the first one again
+            for field in (self.film.p, self.film.asperity):
+                field[-1:] = field[:1]
         self.rigid = np.append(rigid, np.zeros(self.rigid.size - np.size(rigid)))
         self.is_stale = True
 

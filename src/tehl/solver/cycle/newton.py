@@ -81,9 +81,9 @@ class Newton:
             level.grid, level.stencil, level.equations.entrainment
         )
         self.to_fine = interpolation(level.grid, coarse)
-        self.to_coarse = csr_matrix(
-            rows(1.0 / np.asarray(self.to_fine.sum(0)).ravel()) @ self.to_fine.T
-        )
+        weights = np.asarray(self.to_fine.sum(0)).ravel()
+        per_weight = np.divide(1.0, weights, out=np.zeros_like(weights), where=weights > 0.0)
+        self.to_coarse = csr_matrix(rows(per_weight) @ self.to_fine.T)
         self.same = np.asarray(self.to_fine.argmax(axis=0)).ravel()  # fine node at each coarse one
         coarse_influence = influence_of(coarse, level.equations.groups)
         self.deflection = matrix_of(coarse, coarse_influence)

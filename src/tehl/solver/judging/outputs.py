@@ -119,20 +119,19 @@ def heat_balance(state: FilmState) -> HeatBalance:
     does not use: the error of the balance measures the discretisation error.
     """
     grid, view, terms = state.grid, state.view, state.model.terms
-    inner = (slice(1, -1), slice(1, -1))
     pressure, along, sideways = view("p"), view("enthalpy_x"), view("enthalpy_y")
     carried = np.zeros_like(pressure)
     carried[1:-1] += 0.5 * terms.over_x * (along[2:] - along[:-2])
     over_y = terms.over_y * state.fields.closer[: grid.shape[0]]
-    carried[:, 1:-1] += 0.5 * over_y[1:-1] * (sideways[:, 2:] - sideways[:, :-2])
-    if terms.mirror and grid.ny > 1:
-        carried[:, 0] += over_y[0] * sideways[:, 1]
+    way = 1.0 if grid.wraps else -1.0  # behind a mirror oil flows the other way
+    before, behind = (way * rows.T for rows in grid.beyond(sideways.T, 1))
+    wider = np.concatenate([before, sideways, behind], axis=1)
+    across = slice(1 - before.shape[1], pressure.shape[1] - 1 + behind.shape[1])
+    carried[:, across] += 0.5 * over_y[across] * (wider[:, 2:] - wider[:, :-2])
     area = np.zeros_like(pressure)
-    area[inner] = 2.0 if terms.mirror else 1.0
-    if terms.mirror:
-        area[1:-1, 0] = 1.0
+    area[1:-1] = grid.widths / grid.dy
+    area[:, list(grid.edge_rows)] = 0.0
     scales, skew = state.film.scaled.scales, state.film.scaled.groups.skew
-    area /= state.fields.closer[: grid.shape[0]]
     area *= (wet_part(pressure.T) * zone_of(grid, skew)).T  # of the film under pressure in the zone
     area *= grid.dx * grid.dy * scales.half_width_x * scales.half_width_y * state.film.flux_unit
     powers = (view("shear"), view("work"), *state.fluxes, carried)
@@ -222,6 +221,8 @@ def _largest_mass_error(level: Level) -> float:
 
 def _line_weights(grid: Grid) -> Array:
     """Return of how many lines of the full domain each line is an image, (ny,)."""
+    if grid.is_closed:
+        return grid.widths / grid.dy
     weights = np.ones(grid.shape[0])
     if grid.mirror:
         weights[1:] = 2.0
@@ -244,10 +245,8 @@ def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:
     film = level.film
     full = film.rho * np.maximum(film.h, level.equations.floor)
     fill = np.where(film.partial > 0, np.minimum(held / full, 1.0), 1.0)
-    if grid.ny > 1:
-        fill[-1] = fill[-2]  # nothing is solved on the edges
-    if not grid.mirror:
-        fill[0] = fill[1]
+    for edge in grid.edge_rows:  # nothing is solved there
+        fill[edge] = fill[1 if edge == 0 else -2]
     return FilmOil(
         fill=grid.unfold(fill),
         entering=_unfold_line(grid, passed[:, 0] * unit),

@@ -235,9 +235,7 @@ class BoundaryContact(OilAlone):
     def lines(self) -> Array:
         """Lines that each stored one stands for, (ny, 1): by them K is symmetric."""
         grid = self.equations.grid
-        found = np.full((grid.shape[0], 1), 1.0 + grid.mirror)
-        found[0] = 1.0
-        return found
+        return np.asarray(grid.widths[:, None] / grid.dy)
 
     @cached_property
     def flattening(self) -> Flattening:
@@ -326,6 +324,10 @@ class BoundaryContact(OilAlone):
         if self.response is None:
             return influence
         touching = self.touching.ravel()
+        if self.equations.grid.wraps:  # the last row is the first one again
+            touching = touching & (
+                np.arange(touching.size) < touching.size - self.equations.grid.nx
+            )
         held = np.linalg.solve(influence[np.ix_(touching, touching)], influence[touching])
         return np.ascontiguousarray(influence - influence[:, touching] @ held)
 

@@ -20,7 +20,7 @@ from tehl.estimate.nodes import finest_grid, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
 from tehl.kernels.warmup import warm_up
-from tehl.operators.heights import MovingHeights
+from tehl.operators.heights import MovingHeights, check_ends
 from tehl.result.solution import ConvergenceError, Hint, Solution, Status
 from tehl.result.transient import TIME_OVER, StepReport, TransientSolution
 from tehl.solver.attempts import Attempt
@@ -125,6 +125,7 @@ class Run:
         ``smooth`` is whether the run starts without roughness.
         """
         transient, scales = self.transient, self.scaled.scales
+        check_ends(self.scaled, grid)
         self.heights = MovingHeights(self.scaled, grid, transient.entrance if smooth else None)
         self.seconds = transient.stride * grid.dx * scales.half_width_x / scales.speed
         self.steps = number_of_steps(self.scaled, self.seconds)
