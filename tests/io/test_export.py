@@ -217,7 +217,7 @@ def test_csv_history_of_a_transient_result_has_a_row_per_step(tmp_path):
     table = rows(tmp_path / "run.csv")
     assert [float(row["time_s"]) for row in table] == run.history.time.tolist()
     assert [float(row["h_min_m"]) for row in table] == run.history.film_minimum.tolist()
-    assert {"load_factor", "p_max_pa", "traction", "film_rise_max_k"} <= set(table[0])
+    assert {"load_factor", "p_max_pa", "rolling_moment_n_m", "film_rise_max_k"} <= set(table[0])
 
 
 def test_csv_lines_of_a_transient_result_follow_the_line_at_each_step(tmp_path):

@@ -53,7 +53,8 @@ def test_the_load_of_a_line_is_drawn_per_millimetre():
     changed = replace(
         run, history=replace(run.history, load=load), start=run.start.but(problem=line)
     )
-    axes = transient.history(changed, title=False).axes[3]
+    moment, axes = transient.history(changed, title=False).axes[3:5]
+    assert moment.get_ylabel() == "rolling moment\n[N mm/m]"
     assert axes.get_ylabel() == "load [N/mm]"
     assert axes.lines[0].get_ydata()[0] == pytest.approx(80.0)
 

@@ -10,6 +10,7 @@ from scipy.interpolate import CubicSpline
 from tehl import InputError, certify_transient, solve, solve_transient
 from tehl.api.problem import ContactProblem
 from tehl.api.results import TransientResult
+from tehl.cli.text import as_text
 from tehl.contact.moment import Moment, courses_of, moment_at
 from tehl.contact.options import Domain, Options
 from tehl.estimate.film_formulas import expected_film
@@ -85,6 +86,33 @@ def test_a_slow_change_passes_through_steady_films():
     assert run.history.film_central[-1] == pytest.approx(steady.film.central, rel=1e-3)
     assert run.history.film_minimum[-1] == pytest.approx(steady.film.minimum, rel=1e-3)
     assert abs(steady.film.central / run.history.film_central[0] - 1.0) > 0.02
+
+
+@pytest.mark.parametrize("key", ["entrainment_speed", "load", "radius"])
+def test_the_rolling_moment_of_a_slow_change_is_that_of_the_steady_film(key):
+    """It differs by a part in proportion to the rate: the film that opens holds oil back."""
+    ends = []
+    for end in (10.0, 20.0):  # the change goes on, as it lifts the film at its end too
+        tables = {key: [[0.0, 1.0], [2.0 * end * UNIT, 1.4]]}
+        run = changing(129, [-4.5, 1.5], end, **tables)
+        first = run.start.rolling.moment
+        assert run.history.rolling_moment[0] == pytest.approx(first, rel=1e-6)
+        ends.append(float(run.history.rolling_moment[-1]))
+    steady = changing(129, [-4.5, 1.5], 0.01, **{key: "1.2"}).start.rolling
+    assert 2.0 * ends[1] - ends[0] == pytest.approx(steady.moment, rel=2e-3)
+    assert abs(ends[1] / steady.moment - 1.0) < 0.02
+    # on the grid it is the moment of the pressure, whatever the radius is
+    assert abs(steady.closure_error) < 1e-6
+
+
+def test_the_rolling_moment_turns_with_the_motion():
+    turn = [[0.5 * UNIT, 1.0], [2.5 * UNIT, -1.0]]
+    run = changing(129, [-4.5, 4.5], 10.0, entrainment_speed=turn, max_cycles=60)
+    moment = run.history.rolling_moment
+    assert moment[-1] == pytest.approx(-moment[0], rel=2e-3)
+    numbers, text = run.summary(), as_text(run)
+    assert numbers["rolling"]["moment_n_m"]["least"] == pytest.approx(moment.min())
+    assert "rolling          moment" in text
 
 
 def test_steps_at_the_default_tolerance_are_within_a_hundredth_of_a_percent_of_tight_ones():

@@ -6,9 +6,10 @@ import pytest
 import tehl
 from tehl.api.problem import ContactProblem
 from tehl.cli.text import as_text
+from tehl.contact.moment import Moment
 from tehl.contact.options import Domain, Options
 from tehl.estimate.scaling import groups, scales
-from tehl.operators.upstream import Beyond, rolling
+from tehl.operators.upstream import Lines, rolling
 from tehl.plots.animation import MOST_MOMENTS, Movie
 from tests.reference import read
 
@@ -53,8 +54,9 @@ def test_films_and_rolling_are_those_of_another_program(name):
     found, cited = in_box(name, 2049), CITED["box"][name]
     assert found.film_scaled.central == pytest.approx(cited["h_central"], rel=3e-4)
     assert found.film_scaled.minimum == pytest.approx(cited["h_minimum"], rel=1e-3)
-    here, nothing = found.scaled, Beyond(*np.zeros((3, 1)))
-    integral, moment = rolling(here.x, here.pressure, here.film, nothing, np.ones(1))
+    here, entering = found.scaled, found.scaled_problem.entering
+    lines = Lines(here.x, here.pressure, here.film, np.ones(1))
+    integral, moment, _ = rolling(lines, None, entering, Moment())
     assert integral == pytest.approx(cited["rolling"], rel=1e-3)
     assert moment == pytest.approx(1.0, abs=1e-12)  # the identity w e = 2 F R
     assert found.cost.cpu_seconds < 1.0  # 0.03 to 0.05 where nothing else runs

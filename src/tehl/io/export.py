@@ -45,7 +45,7 @@ _ROWS = {
 """Dimensions over which a CSV table has its rows; the first of each kind is the default."""
 _SUFFIXES = {
     **{"m": "_m", "s": "_s", "Pa": "_pa", "K": "_k", "W/m^2": "_w_m2", "1": "", "Hz": "_hz"},
-    **{"N/m": "_n_per_m", "N s/m": "_n_s_per_m", "N s^2/m": "_n_s2_per_m"},
+    **{"N m": "_n_m", "N/m": "_n_per_m", "N s/m": "_n_s_per_m", "N s^2/m": "_n_s2_per_m"},
 }
 """Endings of column names by unit."""
 

@@ -172,6 +172,9 @@ def _transient(run: TransientSolution) -> Block:
         "pressure": {"p_max_pa": _extreme(history.pressure_max, times, np.argmax)},
         "temperature": None if run.start.heat is None else {"film_rise_max_k": rise},
         "traction": _range(history.traction),
+        "rolling": {"moment_n_m": _range(history.rolling_moment)}
+        if run.start.problem.contact.has_lines
+        else None,
         "friction": None if (rubbed := friction(run)) is None else _range(rubbed),
         "asperity_load": None
         if run.start.asperities is None and run.start.problem.contact_film is None

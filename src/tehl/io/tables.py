@@ -199,6 +199,12 @@ HISTORY = _table(
     ("film_minimum", "h_min", "m", "smallest film between the nodes"),
     ("pressure_max", "p_max", "Pa", "largest pressure"),
     ("traction", "traction", "1", "mid-film traction coefficient, over the load at that time"),
+    (
+        "rolling_moment",
+        "rolling_moment",
+        "N m",
+        "moment of the pressure of a line about the middle",
+    ),
     ("asperity_load", "asperity_load", "1", "load on asperities, over the load at that time"),
     ("solid_friction", "solid_friction", "1", "friction of asperities and contact, over that load"),
     ("rigid_approach", "H00", "1", "rigid approach"),

@@ -12,12 +12,14 @@ from the pressure at ambient viscosity, P_0, which falls as t^3: it is 1/(1 - al
 the oil is cavitated.
 """
 
+from dataclasses import replace
 from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.contact.moment import Moment
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 
@@ -35,6 +37,15 @@ class Beyond(NamedTuple):
     rolling: Array
 
 
+class Lines(NamedTuple):
+    """X of the nodes, (nx,), P and H there, (ny, nx), and what each line stands for, (ny,) [-]."""
+
+    x: Array
+    pressure: Array
+    film: Array
+    widths: Array
+
+
 class EdgeSlopes(NamedTuple):
     """Change of the pressure on the edges, (ny, nx), and of the load outside.
 
@@ -50,12 +61,7 @@ class EdgeSlopes(NamedTuple):
     load_by_flux: Array
 
 
-def nothing(grid: Grid) -> Beyond:
-    """Return what is upstream of a starved film: no pressure."""
-    return Beyond(*np.zeros((3, grid.shape[0])))
-
-
-def beyond(edge: float, film: Array, flux: Array, groups: Groups) -> Beyond:
+def beyond(edge: float, film: Array, flux: Array, groups: Groups, curvature: float = 1.0) -> Beyond:
     """Return what the oil upstream of an edge does.
 
     Parameters
@@ -66,10 +72,12 @@ def beyond(edge: float, film: Array, flux: Array, groups: Groups) -> Beyond:
         Of each line H there, and rho H where the pressure is largest [-].
     groups : Groups
         lambda and alpha p_h of the oil that enters.
+    curvature : float
+        1/R_x over that of the contact [-].
     """
     t, weight = _gauss()
     x = edge / t
-    h = gap_beyond(edge, film[:, None], t)
+    h = gap_beyond(edge, film[:, None], t, curvature)
     slope = groups.lambda_bar * weight * (h - flux[:, None]) / h**3  # P' |dX|
     slope *= -edge / t**2
     thicker = np.minimum(groups.alpha_bar * slope.sum(axis=1), MOST_THICKENING)
@@ -78,7 +86,7 @@ def beyond(edge: float, film: Array, flux: Array, groups: Groups) -> Beyond:
     return Beyond(slope.sum(axis=1), moments, (slope * h).sum(axis=1))
 
 
-def gap_beyond(edge: float, film: Array, t: Array) -> Array:
+def gap_beyond(edge: float, film: Array, t: Array, curvature: float = 1.0) -> Array:
     """Return H upstream of an edge at X = edge / t [-].
 
     Parameters
@@ -87,55 +95,52 @@ def gap_beyond(edge: float, film: Array, t: Array) -> Array:
         X_a < 0, and H there [-].
     t : array
         Between 0 and 1.
+    curvature : float
+        1/R_x over that of the contact [-].
     """
     x = edge / t
     bent = 0.5 * np.log(t) + (1.0 / x**2 - 1.0 / edge**2) / 16.0
-    return np.asarray(film + 0.5 * (x**2 - edge**2) + bent)
+    return np.asarray(film + 0.5 * curvature * (x**2 - edge**2) + bent)
 
 
 def rolling(
-    x: Array, pressure: Array, film: Array, upstream: Beyond, widths: Array
-) -> tuple[float, float]:
-    r"""Return the rolling integral of a line or roller, and the moment of the pressure over it [-].
+    lines: Lines, oil: Array | None, groups: Groups, moment: Moment
+) -> tuple[float, float, float]:
+    r"""Return the rolling integral of a line or roller, the moment over it, and its tail [-].
 
     The integral is the friction of the flow by the pressure on both surfaces, and the moment of the
-    pressure about the middle,
+    pressure about the middle times the curvature c of the gap,
 
-    .. math:: I = \int\!\!\int H \frac{dP}{dX} dX dY = -\int\!\!\int X P\, dX dY,
+    .. math:: I = \int\!\!\int H \frac{dP}{dX} dX dY = -c \int\!\!\int X P\, dX dY,
 
-    which are equal as the deflection by P makes no moment. Sums by the trapezoidal rule; the ratio
-    is that on the grid, one if the oil has no pressure.
+    which are equal as the deflection by P makes no moment. Sums by the trapezoidal rule. The tail
+    is the part of the oil upstream of the grid, that of the steady film of this moment. The
+    ratio is that on the grid, one if the oil has no pressure.
 
     Parameters
     ----------
-    x, pressure, film : (nx,), (ny, nx), (ny, nx) array
-        X, P and H [-].
-    upstream : Beyond
-        What the oil upstream of the first node of each line adds.
-    widths : (ny,) array
-        What each line stands for [-].
+    lines : Lines
+        Pressure and film on a grid.
+    oil : (ny,) array or None
+        rho H of each line where its pressure is largest [-]; None where no oil reaches further
+        upstream.
+    groups, moment : Groups, Moment
+        lambda and alpha p_h of the oil that enters; speed and radius.
     """
+    way = slice(None, None, -1 if moment.speed < 0.0 else 1)  # the inlet first
+    sign, widths = float(way.step), lines.widths
+    x, pressure, film = sign * lines.x[way], lines.pressure[:, way], lines.film[:, way]
+    tail = 0.0
+    if oil is not None and moment.speed != 0.0:
+        slower = replace(groups, lambda_bar=abs(moment.speed) * groups.lambda_bar)
+        flux = np.minimum(oil, film[:, 0])
+        upstream = beyond(float(x[0]), film[:, 0], flux, slower, moment.curvature)
+        tail = float(upstream.rolling @ widths)
     flow = np.sum(0.5 * (film[:, 1:] + film[:, :-1]) * np.diff(pressure), axis=1)
-    moment = -np.trapezoid(x * pressure, x)
+    centre = -moment.curvature * np.trapezoid(x * pressure, x)
     on_grid = float((flow + film[:, 0] * pressure[:, 0]) @ widths)
-    found = float(flow @ widths) + float(upstream.rolling @ widths)
-    return found, float(moment @ widths) / on_grid if on_grid else 1.0
-
-
-def upstream_of(grid: Grid, film: Array, oil: Array, groups: Groups) -> Beyond:
-    """Return what the oil upstream of each line of a grid does.
-
-    Parameters
-    ----------
-    grid, film : Grid, (ny, nx) array
-        Its inlet edge, and H there [-].
-    oil : (ny,) array
-        rho H of each line where its pressure is largest [-].
-    groups : Groups
-        lambda and alpha p_h of the oil that enters.
-    """
-    inlet = film[:, 0]
-    return beyond(grid.domain.x[0], inlet, np.minimum(oil, inlet), groups)
+    found = float(flow @ widths) + tail
+    return sign * found, float(centre @ widths) / on_grid if on_grid else 1.0, sign * tail
 
 
 @cache

@@ -46,11 +46,14 @@ def history(run: TransientSolution, *, title: bool | None = True) -> Figure:
         ("largest pressure [GPa]", numbers.pressure_max * GIGA, PRESSURE),
         ("traction at mid-film [-]", numbers.traction, GREEN),
     ]
+    problem = run.start.problem
+    if problem.contact.has_lines:
+        metre = "/m" if problem.contact.is_line else ""
+        curves.append((f"rolling moment\n[N mm{metre}]", 1e3 * numbers.rolling_moment, "#3b6ea5"))
     if numbers.temperature_rise.max() > 0:
         curves.append(("largest rise [K]", numbers.temperature_rise, "#8a1c7c"))
     if numbers.asperity_load.max() > 0:
         curves.append((_carried_by(run), numbers.asperity_load, "#b8560f"))
-    problem = run.start.problem
     mean = problem.entrainment_speed
     force, newtons = ("load [N/mm]", 1e-3) if problem.contact.is_line else ("load [N]", 1.0)
     curves += [

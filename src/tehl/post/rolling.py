@@ -11,7 +11,7 @@ import numpy as np
 
 from tehl.contact.options import Domain
 from tehl.estimate.grid import Grid
-from tehl.operators.upstream import nothing, rolling, upstream_of
+from tehl.operators.upstream import Lines, rolling
 from tehl.post.stress.loads import whole_pressure
 from tehl.post.traction import cell_widths
 from tehl.result.solution import Solution
@@ -48,22 +48,23 @@ def rolling_friction(result: Solution) -> Rolling | None:
     ends = Domain.model_construct(x=(float(here.x[0]), float(here.x[-1])), y=groups.shape.sides)
     grid = Grid(nx=here.x.size, ny=here.y.size, domain=ends, mirror=False)
     widths = cell_widths(here.y) if grid.ny > 1 else grid.widths
-    upstream = nothing(grid)
-    if result.oil is None or result.oil.fill[0, 0] == 1.0:  # the oil reaches further upstream
+    oil, scaled = None, result.scaled_problem
+    if result.oil is None or result.oil.fill[0, 0] == 1.0:  # it reaches further upstream
         peaks = result.pressure.argmax(axis=1)[:, None]
         largest = np.take_along_axis(result.pressure, peaks, axis=1)
         density = problem.lubricant.density.density(largest, scales.temperature) / scales.density
         oil = (density * np.take_along_axis(here.film, peaks, axis=1))[:, 0]
-        upstream = upstream_of(grid, here.film, oil, result.scaled_problem.entering)
-    flow, ratio = rolling(here.x, here.pressure, here.film, upstream, widths)
+    lines = Lines(here.x, here.pressure, here.film, widths)
+    flow, ratio, tail = rolling(lines, oil, scaled.entering, scaled.moment)
     force = 0.5 * flow * scales.hertz_pressure * scales.film_thickness * scales.half_width_y
-    arm = flow * scales.hertz_pressure * scales.half_width_x**2 * scales.half_width_y
+    area = scales.half_width_x**2 * scales.half_width_y
+    arm = flow / scaled.moment.curvature * scales.hertz_pressure * area
     load = problem.shape.load_unit(problem.radius_x, problem.reduced_modulus)
     return Rolling(
         force=force,
         moment=arm,
         shift=arm / result.load,
-        tail_share=float(upstream.rolling @ widths) / flow if flow else 0.0,
+        tail_share=tail / flow if flow else 0.0,
         closure_error=ratio - 1.0,
         T=force / load * groups.W**-1.5,
         tilting=_tilting(result) if problem.has_tilting_moment else None,

@@ -437,5 +437,11 @@ TRANSIENT: tuple[Quantity, ...] = (
     Quantity("pressure.p_max_pa.value", name="pressure_max", unit="GPa"),
     Quantity("temperature.film_rise_max_k.value", name="film_rise_max", unit="K"),
     Quantity("traction.extreme", name="traction_extreme", words={"bar": "at the extreme"}),
+    Quantity(
+        "rolling.moment_n_m.extreme",
+        name="rolling_moment_extreme",
+        unit="N mm",
+        words={"bar": "at the extreme"},
+    ),
 )
 """Extremes of a transient result that have error bars when it is certified."""

@@ -53,6 +53,9 @@ class History:
     """Largest pressure of the oil; of oil and contact together if there is a boundary film [Pa]."""
     traction: Array
     """Mid-film traction coefficient of the film, over the load at that time [-]."""
+    rolling_moment: Array
+    """Moment of the pressure of a roller, or of one metre of a line contact, about the middle, with
+    that of the oil upstream of the grid; zero of other contacts [N m]."""
     asperity_load: Array
     """Load on asperities finer than the grid, and where surfaces touch through a boundary film,
     over the load at that time [-]; zero without."""
@@ -130,8 +133,8 @@ class TransientSolution:
     uncertainty: dict[str, Estimate] = field(default_factory=dict)
     """Of a certified run, extremes over time in SI with their error bars: ``"film_minimum"``,
     ``"film_central_least"``, ``"film_central_largest"``, ``"pressure_max"``, ``"film_rise_max"``
-    where the film is heated, and ``"traction_extreme"``, that of largest magnitude, where it is
-    heated or thins and slides."""
+    where the film is heated, and of largest magnitude ``"traction_extreme"``, where it is heated or
+    thins and slides, and ``"rolling_moment_extreme"`` of lines and rollers."""
     bars: HistoryBars | None = None
     """Error bars along the history of a certified run."""
 

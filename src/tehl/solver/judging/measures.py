@@ -11,7 +11,7 @@ from tehl.operators.dry import dry_pressure
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import stress_unit
 from tehl.operators.loaded_zone import beside, contact_mean, is_inside, wet_part, zone_of
-from tehl.operators.upstream import nothing, rolling, upstream_of
+from tehl.operators.upstream import Lines, rolling
 from tehl.post.heat import Rises, lagrange_weights
 from tehl.post.roughness import ripples
 from tehl.solver.cycle.level import Level
@@ -112,16 +112,8 @@ def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
     level, scaled : Level, ScaledProblem
         The grid, and the contact.
     """
-    film, grid = level.film, level.grid
-    upstream = nothing(grid)
-    # oil reaches further upstream
-    if scaled.problem.supply is None or film.partial[0, 0] == 0:
-        peaks = film.p.argmax(axis=1)[:, None]
-        oil = np.take_along_axis(film.rho * film.h, peaks, axis=1)[:, 0]
-        upstream = upstream_of(grid, film.h, oil, scaled.entering)
-    found = rolling(grid.x, film.p, film.h, upstream, grid.widths)[0]
+    grid, (found, tail) = level.grid, rolling_integral(level, scaled)
     error = TAIL_ERROR if level.far_field is not None else TAIL_OF_ZERO_EDGE
-    tail = float(upstream.rolling @ grid.widths)
     known = {"rolling": found, "rolling_tail": error * abs(tail / found) if found else 0.0}
     if not scaled.problem.has_tilting_moment:
         return known
@@ -130,6 +122,39 @@ def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
         return known | {"tilt": tilt}
     moment = level.equations.balances.integral(grid.centres[:, None] * level.pressure)
     return known | {"tilting": moment}
+
+
+def rolling_integral(level: Level, scaled: ScaledProblem) -> tuple[float, float]:
+    """Return the rolling integral of a line or roller, and what of it is upstream of the grid [-].
+
+    Parameters
+    ----------
+    level, scaled : Level, ScaledProblem
+        The grid, and the contact with the speed and the curvature of the moment.
+    """
+    film, grid = level.film, level.grid
+    peaks, oil = film.p.argmax(axis=1)[:, None], None
+    if scaled.problem.supply is None or film.partial[0, 0] == 0:  # it reaches further upstream
+        oil = np.take_along_axis(film.rho * film.h, peaks, axis=1)[:, 0]
+    lines = Lines(grid.x, film.p, film.h, grid.widths)
+    found, _, tail = rolling(lines, oil, scaled.entering, scaled.moment)
+    return found, tail
+
+
+def rolling_moment(level: Level, scaled: ScaledProblem) -> float:
+    """Return the moment of the pressure of a line or roller about the middle [-], zero of others.
+
+    As the deflection by a pressure makes none, it is the integral of H dP/dX over the curvature of
+    the gap, in p_h a_x^2 a_y.
+
+    Parameters
+    ----------
+    level, scaled : Level, ScaledProblem
+        As of `rolling_integral`.
+    """
+    if not level.equations.groups.shape.as_line:
+        return 0.0
+    return rolling_integral(level, scaled)[0] / scaled.moment.curvature
 
 
 def tilt_of(level: Level) -> float | None:

@@ -208,6 +208,9 @@ def _extremes(run: TransientSolution, end: float) -> dict[str, float]:
     if start.problem.is_coupled and slides_ever(start.problem):
         traction = until_end(history.traction)
         found["traction_extreme"] = traction[np.abs(traction).argmax()]
+    if start.problem.contact.has_lines:
+        moment = until_end(history.rolling_moment)
+        found["rolling_moment_extreme"] = moment[np.abs(moment).argmax()]
     return {name: float(value) for name, value in found.items()}
 
 

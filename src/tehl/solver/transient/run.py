@@ -27,7 +27,12 @@ from tehl.solver.attempts import Attempt
 from tehl.solver.cost import Clock, end_of_time, working_time
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
-from tehl.solver.judging.measures import is_resolved, mid_film_stress, mid_film_traction
+from tehl.solver.judging.measures import (
+    is_resolved,
+    mid_film_stress,
+    mid_film_traction,
+    rolling_moment,
+)
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import try_strategies
 from tehl.solver.transient.checks import check_peaks, check_size, check_stride, check_waves
@@ -215,6 +220,7 @@ class Run:
             "traction": mid_film_traction(
                 self.level, scaled, self.stepper.solver.coupling.state, load
             ),
+            "rolling_moment": rolling_moment(self.level, scaled),
             "temperature_rise": self.stepper.solver.coupling.temperature_rise(),
             "cycles": end.cycles if end else 0,
             "change": end.change if end else 0.0,

@@ -114,6 +114,7 @@ class Record:
             "film_central": scales.film_thickness,
             "film_minimum": scales.film_thickness,
             "pressure_max": scales.hertz_pressure,
+            "rolling_moment": scales.hertz_pressure * scales.half_width_x**2 * scales.half_width_y,
         }
         columns: dict[str, Any] = {
             name: column * units.get(name, 1.0)
