@@ -225,7 +225,11 @@ def test_a_piece_has_as_many_lines_as_its_waves_need():
         ({"tilt": "0.01 deg"}, {}, "straight"),
         ({"profile": {"shape": "lundberg"}}, {}, "straight"),
         ({"slide_roll_ratio": 0.2, "sliding_angle": "20 deg"}, {}, "slide the other way"),
-        ({}, {"stress": {}}, "whole contact"),
+        (
+            {},
+            {"stress": {"thermal": True}, "thermal": {"temperature": "40 degC"}},
+            "whole contact",
+        ),
         ({"slide_roll_ratio": 2.0}, {"thermal": {"temperature": "40 degC"}}, "at rest"),
         ({"type": "point"}, {}, "has ends"),
         (

@@ -134,9 +134,9 @@ def check_line(problem: PointContact) -> None:
             bool(computed),
             "its track has no width; state the temperature of the body",
         ),
-        "stress": (
-            problem.stress is not None and not contact.is_line,
-            "so far stresses are those below a whole contact",
+        "stress.thermal": (
+            problem.stress is not None and problem.stress.thermal and not contact.is_line,
+            "so far the heat below is that of a whole contact",
         ),
     }
     for name, (is_stated, why) in excluded.items():

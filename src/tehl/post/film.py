@@ -6,7 +6,7 @@ import numpy as np
 
 from tehl.base.typing import Array, BoolArray
 from tehl.operators.loaded_zone import contact_mean
-from tehl.post.traction import cell_widths
+from tehl.post.traction import cell_widths, slope_across
 from tehl.result.solution import Solution
 
 
@@ -97,7 +97,7 @@ def mass_flow(result: Solution) -> MassFlow:
     density = lubricant.density.density(pressure, temperature)
     conductance = density * film**3 / (12.0 * lubricant.viscosity.viscosity(pressure, temperature))
     slope_x = np.gradient(pressure, x, axis=1, edge_order=2)
-    slope_y = np.gradient(pressure, y, axis=0, edge_order=2) if y.size > 1 else 0.0 * pressure
+    slope_y = slope_across(result, pressure, edge_order=2)
     spin = result.problem.motion.mean_spin
     along = density * (result.scales.speed - spin * y[:, None]) * film - conductance * slope_x
     across = density * (spin * x) * film - conductance * slope_y

@@ -7,7 +7,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.operators.loaded_zone import is_inside, zone_part
-from tehl.post.traction import traction, under_pressure
+from tehl.post.traction import slope_across, traction, under_pressure
 from tehl.result.fields import FilmHeat
 from tehl.result.solution import Solution
 
@@ -96,11 +96,11 @@ def _pumped_in(result: Solution, heat: FilmHeat) -> float:
     That is the integral of q grad p around it, with ``q = u_m h - h^3/(12 eta) grad p`` of oil
     that is hardly compressed.
     """
-    x, y, film, pressure = result.x, result.y, result.film_thickness, result.pressure
+    x, film, pressure = result.x, result.film_thickness, result.pressure
     inside = zone_part(result.scaled.x, result.scaled.y, skew=result.groups.skew)
     outside = under_pressure(result) * (1.0 - inside)
     along = np.gradient(pressure, x, axis=1)
-    across = np.gradient(pressure, y, axis=0) if y.size > 1 else 0.0 * along
+    across = slope_across(result, pressure)
     eta = result.problem.lubricant.viscosity.viscosity(pressure, mean_temperature(heat))
     carried = result.problem.motion.entrainment_speed * film * along
     spent = film**3 / (12.0 * eta) * (along**2 + across**2)

@@ -7,6 +7,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.estimate.starvation import flooded_oil, is_starved, starved_part
+from tehl.post.traction import slope_across
 from tehl.result.solution import Solution
 
 
@@ -110,7 +111,7 @@ def oil_flux(result: Solution) -> tuple[Array, Array]:
     thick = result.film_thickness
     fill = np.ones(thick.shape) if result.oil is None else result.oil.fill
     conductance = density * thick**3 / (12.0 * viscosity * scales.speed)
-    slope_y, slope_x = np.gradient(pressure, result.y, result.x)
+    slope_y, slope_x = slope_across(result, pressure), np.gradient(pressure, result.x, axis=1)
     wet = scaled.pressure > 0.0
     along = density * fill * thick - np.where(wet, conductance * slope_x, 0.0)
     return along, np.where(wet, -conductance * slope_y, 0.0)

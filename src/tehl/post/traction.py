@@ -8,6 +8,7 @@ surface 1; that on surface 2 is opposite.
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -184,6 +185,33 @@ def cell_widths(axis: Array) -> Array:
     widths = np.gradient(axis)
     widths[[0, -1]] *= 0.5
     return np.asarray(widths)
+
+
+def slope_across(result: Solution, field: Array, edge_order: Literal[1, 2] = 1) -> Array:
+    """Return the derivative of a field along y, with what lies beyond the ends of a piece.
+
+    Parameters
+    ----------
+    result : Solution
+        Gives the lines, and how they go on.
+    field : (ny, nx) array
+        Values at the nodes; even about mirrors.
+    edge_order : {1, 2}
+        Order of the differences on edges.
+
+    Returns
+    -------
+    (ny, nx) array
+        In the unit of the field over metres; zero of a line contact.
+    """
+    y, shape = result.y, result.groups.shape
+    if y.size == 1:
+        return np.zeros_like(field)
+    found = np.asarray(np.gradient(field, y, axis=0, edge_order=edge_order))
+    if shape.goes_on:
+        last = field[1] - field[-2]
+        found[[0, -1]] = last / (2.0 * (y[1] - y[0])) if shape.wraps else 0.0
+    return found
 
 
 def _slope(field: Array, x: Array) -> Array:

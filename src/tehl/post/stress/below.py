@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import cache, partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,9 +14,10 @@ from tehl.post.stress.heated import (
     surface_stress,
     thermal_stress_of,
 )
-from tehl.post.stress.influence import COMPONENTS, HalfSpace, Influence, Spectra, Steps
+from tehl.post.stress.influence import COMPONENTS, HalfSpace, Space, Spectra, Steps
 from tehl.post.stress.loads import SurfaceLoads, left_out, loads_on, on_even_lines, parts_of_cells
 from tehl.post.stress.measures import Worst, largest_shear, worst
+from tehl.post.stress.repeating import Ends, RepeatingHalfSpace
 from tehl.post.stress.thermal import Heated
 from tehl.post.stress.window import Window, cut, depths_of, halved, middle_row, wake, window_of
 from tehl.result.fields import BodyStress
@@ -45,13 +46,15 @@ class Grid(NamedTuple):
     row: int
     column: int
     """Kept nodes nearest to the axes."""
+    ends: Ends = "open"
+    """What lies beyond the first and last row."""
 
     @property
     def coarser(self) -> "Grid":
         """Return the grid of every second node."""
         (dy, dx), kept = self.spacing, self.kept
         columns = slice(kept.start // 2, (kept.stop + 1) // 2)
-        return Grid((2.0 * dy, 2.0 * dx), columns, self.row // 2, self.column // 2)
+        return Grid((2.0 * dy, 2.0 * dx), columns, self.row // 2, self.column // 2, self.ends)
 
 
 def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress:
@@ -86,10 +89,10 @@ def stress_below(result: Solution, settings: Stress | None = None) -> BodyStress
     x, y = result.x[window.columns], result.y[window.rows]
     kept = slice(sides[0], sides[0] + x.size)
     row, column = middle_row(result, window), int(np.argmin(np.abs(x)))
-    grid = Grid(window.spacing, kept, row, column)
+    grid = Grid(window.spacing, kept, row, column, result.problem.contact.ends)
     march = March(depths, settings, result.scales.hertz_pressure)
     fine = march.through([*cases, *dry], grid, len(cases))
-    coarse = march.through([_coarser(one) for one in (*cases, *dry)], grid.coarser).found
+    coarse = march.through([_coarser(one, grid.ends) for one in (*cases, *dry)], grid.coarser).found
     n = len(cases)
     level = [int(np.argmax(one)) for one in _column(fine.found[:n], "shear")]
     floors = [march.shear_at(case, grid, k) for case, k in zip(cases, level, strict=True)]
@@ -158,8 +161,7 @@ class March:
         ny, wide = cases[0].loads.pressure.shape
         heats = [None if case.heat is None else thermal_stress_of(case.heat) for case in cases]
         loads = [_with_heat(case.loads, heat) for case, heat in zip(cases, heats, strict=True)]
-        mirror = all(_symmetric(one, grid.row) for one in loads)
-        space = HalfSpace((ny, wide), grid.spacing, single=True, row=grid.row, mirror=mirror)
+        space = _space(loads, grid)
         bodies = [self._body(*one, space) for one in zip(cases, loads, heats, strict=True)]
         nx, size = len(range(*grid.kept.indices(wide))), self.depths.size
         found = np.empty((len(cases), size, len(Worst._fields)))
@@ -168,8 +170,7 @@ class March:
         for k, depth in enumerate(self.depths):
             steps = space.steps(float(depth))
             influence, rows = space.influence(float(depth), steps), space.rows(steps)
-            weights = np.full(len(range(*rows.indices(ny))), (2.0 if mirror else 1.0) * rows.step)
-            weights[0] = rows.step
+            weights = space.weights(steps)
             for number, body in enumerate(bodies):
                 stress = self._stress(body, space, influence, grid, k)
                 one = worst(stress, self.settings, limit, weights)
@@ -194,19 +195,18 @@ class March:
         """
         heat = None if case.heat is None else thermal_stress_of(case.heat)
         loads = _with_heat(case.loads, heat)
-        shape, mirror = case.loads.pressure.shape, _symmetric(loads, grid.row)
-        space = HalfSpace(shape, grid.spacing, single=True, row=grid.row, mirror=mirror)
+        space = _space([loads], grid)
         influence = space.influence(float(self.depths[level]))
         body = self._body(case, loads, heat, space)
         shear = largest_shear(self._stress(body, space, influence, grid, level)) * self.scale
-        return np.concatenate([shear[:0:-1], shear]) if mirror else shear
+        return np.concatenate([shear[:0:-1], shear]) if space.mirror else shear
 
     def _body(
         self,
         case: Case,
         loads: SurfaceLoads,
         heat: ThermalBody | None,
-        space: HalfSpace,
+        space: Space,
     ) -> Body:
         """Return the spectra of the loads of a body, itself, and its thermal stress."""
         spectra = space.spectra_of(*(load / self.scale for load in loads))
@@ -215,8 +215,8 @@ class March:
     def _stress(
         self,
         body: Body,
-        space: HalfSpace,
-        influence: Influence,
+        space: Space,
+        influence: Any,
         grid: Grid,
         level: int,
     ) -> Array:
@@ -292,9 +292,11 @@ def _beside(loads: SurfaceLoads, sides: tuple[int, int]) -> SurfaceLoads:
     return SurfaceLoads(*(np.pad(load, ((0, 0), sides)) for load in loads))
 
 
-def _coarser(case: Case) -> Case:
+def _coarser(case: Case, ends: Ends) -> Case:
     """Return a case on every second node."""
-    loads, heat = SurfaceLoads(*map(halved, case.loads)), case.heat
+    (pressure, *tractions), heat = case.loads, case.heat
+    along, across = (halved(one, ends, odd=k > 0) for k, one in enumerate(tractions))
+    loads = SurfaceLoads(halved(pressure, ends), along, across)
     return Case(loads, case.poisson_ratio, None if heat is None else heat.coarser(halved))
 
 
@@ -303,6 +305,15 @@ def _with_heat(loads: SurfaceLoads, heat: ThermalBody | None) -> SurfaceLoads:
     if heat is None:
         return loads
     return SurfaceLoads(*(one + more for one, more in zip(loads, heat.loads(), strict=True)))
+
+
+def _space(loads: Sequence[SurfaceLoads], grid: Grid) -> Space:
+    """Return the half-space under loads; of those that are symmetric only one side is computed."""
+    shape = loads[0].pressure.shape
+    if grid.ends != "open":
+        return RepeatingHalfSpace(shape, grid.spacing, grid.ends)
+    mirror = all(_symmetric(one, grid.row) for one in loads)
+    return HalfSpace(shape, grid.spacing, single=True, row=grid.row, mirror=mirror)
 
 
 def _symmetric(loads: SurfaceLoads, row: int) -> bool:

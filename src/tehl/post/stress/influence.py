@@ -12,7 +12,7 @@ import math
 from collections.abc import Sequence
 from functools import reduce
 from operator import iadd
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,17 +42,35 @@ WIDEST_STEP = 4
 DEPTH_OF_STEPS = 4.0
 """Depth over that distance from which a wave of two such distances has decayed by e^(-4 pi), that
 is 3.5e-6."""
+LINE_CELL_LENGTH = 1e7
+"""Length of the cells of a line over all of them along x: plane strain to 5e-8."""
 SPARE = 2
 """Such distances between the end of the grid and where its period begins: odd kernels jump there,
 and a jump of few waves oscillates."""
 
 
+class Space(Protocol):
+    """Finds stresses depth by depth; the influence of a depth is its own."""
+
+    mirror: bool
+
+    def steps(self, depth: float) -> Steps: ...  # noqa: D102
+    def steps_of(self, influence: Any) -> Steps: ...  # noqa: D102
+    def rows(self, steps: Steps) -> slice: ...  # noqa: D102
+    def weights(self, steps: Steps) -> Array: ...  # noqa: D102
+    def on_all_rows(self, values: Array, steps: Steps) -> Array: ...  # noqa: D102
+    def spectra_of(self, pressure: Array, *tractions: Array) -> Spectra: ...  # noqa: D102
+    def thinned(self, spectra: Spectra, steps: Steps) -> Spectra: ...  # noqa: D102
+    def influence(self, depth: float, steps: Steps = (1, 1)) -> Any: ...  # noqa: D102
+    def stresses(self, spectra: Spectra, influence: Any, poisson_ratio: float) -> Array: ...  # noqa: D102
+
+
 class HalfSpace:
     """A half-space under loads on a grid, whose stresses are found depth by depth.
 
-    A grid of one row with a very wide cell is a line contact. Short waves decay with the depth:
-    deep down every second or fourth wave number, node and row are enough (`steps`). Of loads that
-    are symmetric about a row (``mirror``) only the rows from it on are computed.
+    A grid of one row is a line contact, with cells of `LINE_CELL_LENGTH`. Short waves decay with
+    the depth: deep down every second or fourth wave number, node and row are enough (`steps`). Of
+    loads that are symmetric about a row (``mirror``) only the rows from it on are computed.
     """
 
     def __init__(
@@ -70,6 +88,8 @@ class HalfSpace:
         ``row`` is one of those at all depths.
         """
         self.shape, self.spacing = shape, spacing
+        if shape[0] == 1:
+            self.spacing = LINE_CELL_LENGTH * shape[1] * spacing[1], spacing[1]
         self.row, self.mirror = row, mirror
         self._kind: Any = np.float32 if single else np.float64
         self._half = tuple(2 if n == 1 else fast_size(n + SPARE * WIDEST_STEP) for n in shape)
@@ -90,6 +110,14 @@ class HalfSpace:
     def rows(self, steps: Steps) -> slice:
         """Return the rows that are left."""
         return slice(self.row if self.mirror else self.row % steps[0], None, steps[0])
+
+    def weights(self, steps: Steps) -> Array:
+        """Return the rows that each of those that are left stands for."""
+        rows = self.rows(steps)
+        each = (2.0 if self.mirror else 1.0) * rows.step
+        found = np.full(len(range(*rows.indices(self.shape[0]))), each)
+        found[0] = rows.step
+        return found
 
     def on_all_rows(self, values: Array, steps: Steps) -> Array:
         """Return components along a column on all rows, (6, ny), by cubic splines.

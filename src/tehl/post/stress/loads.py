@@ -7,7 +7,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.post.boundary_contact import touching_nodes
-from tehl.post.traction import sliding_direction, traction
+from tehl.post.traction import sliding_direction, slope_across, traction
 from tehl.result.solution import Solution
 
 PLACES = 32
@@ -97,9 +97,12 @@ def whole_pressure(result: Solution) -> Array:
 
 
 def parts_of_cells(result: Solution) -> Array:
-    """Return the part of its cell that each row fills, (ny, 1): half at the ends of a roller."""
+    """Return the part of its cell that each row fills, (ny, 1): half at the ends of a roller.
+
+    Pieces that go on beyond their ends have whole cells there.
+    """
     part = np.ones((result.y.size, 1))
-    if result.problem.contact.type == "roller":
+    if result.groups.roller is not None and not result.groups.shape.goes_on:
         part[[0, -1]] = 0.5
     return part
 
@@ -123,7 +126,4 @@ def left_out(result: Solution) -> bool:
 
 def _rolling_across(result: Solution, pressure: Array) -> Array:
     """Return (h/2) dp/dy [Pa], by which the stress along y falls from mid-film to a surface."""
-    if pressure.shape[0] == 1:
-        return np.zeros_like(pressure)
-    slope = np.gradient(pressure, result.y, axis=0)
-    return np.asarray(0.5 * result.film_thickness * slope)
+    return np.asarray(0.5 * result.film_thickness * slope_across(result, pressure))

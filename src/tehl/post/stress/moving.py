@@ -11,7 +11,7 @@ from tehl.post.stress.below import Case, Grid, March, poisson_ratio
 from tehl.post.stress.loads import SurfaceLoads, parts_of_cells
 from tehl.post.stress.measures import Worst, largest_shear
 from tehl.post.stress.window import cut, depths_of, middle_row, window_of
-from tehl.post.traction import LARGEST_CREDIBLE
+from tehl.post.traction import LARGEST_CREDIBLE, slope_across
 from tehl.post.transient import film_at
 from tehl.result.transient import TransientSolution
 
@@ -62,7 +62,7 @@ def moving_stress(
     march = March(depths, settings, start.scales.hertz_pressure)
     ratio, columns = poisson_ratio(start, body), window.columns
     kept = slice(0, columns.stop - columns.start)
-    grid = Grid(window.spacing, kept, middle_row(start, window), 0)
+    grid = Grid(window.spacing, kept, middle_row(start, window), 0, start.problem.contact.ends)
     planes, largest = [], []
     for number in range(frames.step.size):
         case = Case(cut(frame_loads(run, number, body), window), ratio)
@@ -113,10 +113,7 @@ def frame_loads(run: TransientSolution, frame: int, body: int) -> SurfaceLoads:
             problem.contact_film.friction * total * problem.contact_film.meets(film.film_thickness)
         )
     sliding = sliding - np.sign(problem.slide_roll_ratio) * rubbed
-    along_y, along_x = (
-        np.gradient(pressure, axis, axis=k) if axis.size > 1 else np.zeros_like(pressure)
-        for k, axis in enumerate((film.y, film.x))
-    )
+    along_y, along_x = slope_across(film, pressure), np.gradient(pressure, film.x, axis=1)
     half = 0.5 * film.film_thickness
     part = parts_of_cells(film)
     along = sign * sliding - half * along_x

@@ -8,6 +8,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.contact.stress import Stress
 from tehl.post.stress.loads import SurfaceLoads
+from tehl.post.stress.repeating import Ends
 from tehl.result.solution import Solution
 
 LEAST_WINDOW = 1.25
@@ -57,6 +58,8 @@ def window_of(result: Solution, pressure: Array) -> Window:
 def depths_of(result: Solution, settings: Stress, window: Window) -> Array:
     """Return the depths [m], from two mesh widths on, of rough pressures the larger ones.
 
+    Those of pieces that go on too: where they are smooth they are those of a line contact.
+
     Parameters
     ----------
     result : Solution
@@ -66,10 +69,13 @@ def depths_of(result: Solution, settings: Stress, window: Window) -> Array:
     window : Window
         With the mesh widths.
     """
-    smaller = min(result.scales.half_width_x, result.scales.half_width_y)
+    smaller, goes_on = result.scales.half_width_x, result.groups.shape.goes_on
+    if not goes_on:
+        smaller = min(smaller, result.scales.half_width_y)
     rough = result.heights is not None or result.contact is not None
     is_line = result.scaled.y.size == 1
-    step = max(window.spacing) if rough and not is_line else min(window.spacing)
+    wider = goes_on or (rough and not is_line)
+    step = max(window.spacing) if wider else min(window.spacing)
     shallowest = 2.0 * step  # mesh widths: above it a rough pressure is not resolved
     deepest = max(settings.deepest * smaller, 4.0 * shallowest)
     return np.geomspace(shallowest, deepest, settings.depths)
@@ -80,16 +86,32 @@ def cut(loads: SurfaceLoads, window: Window) -> SurfaceLoads:
     return SurfaceLoads(*(load[window.rows, window.columns] for load in loads))
 
 
-def halved(field: Array) -> Array:
-    """Return a field on every second node, by full weighting."""
-    return _weighted(_weighted(field).T).T
+def halved(field: Array, ends: Ends = "open", *, odd: bool = False) -> Array:
+    """Return a field on every second node, by full weighting.
+
+    Parameters
+    ----------
+    field : (ny, nx) array
+        Values at the nodes.
+    ends : {"open", "mirrored", "periodic"}
+        What lies beyond its first and last row.
+    odd : bool
+        Whether images behind mirrors have the opposite sign.
+    """
+    return _weighted(_weighted(field, ends, odd=odd).T).T
 
 
-def _weighted(field: Array) -> Array:
+def _weighted(field: Array, ends: Ends = "open", *, odd: bool = False) -> Array:
     """Return [1, 2, 1]/4 over every second row; of a single one the row itself."""
     if field.shape[0] == 1:
         return field
-    wide = np.pad(field, ((1, 1), (0, 0)))
+    south, north = 0.0 * field[:1], 0.0 * field[:1]
+    if ends == "periodic":
+        south, north = field[-2:-1], field[1:2]
+    elif ends == "mirrored":
+        sign = -1.0 if odd else 1.0
+        south, north = sign * field[1:2], sign * field[-2:-1]
+    wide = np.concatenate([south, field, north])
     return np.asarray(0.25 * wide[:-2:2] + 0.5 * field[::2] + 0.25 * wide[2::2])
 
 
