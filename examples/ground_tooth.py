@@ -2,8 +2,9 @@
 
 A gear tooth is many times as long as its roughness is coarse, so a piece stands for all of it:
 between two mirrors with `ends = "mirrored"`, which takes any heights; again and again with
-`ends = "periodic"`, where a whole number of waves must fit. An oblique lay goes on as it is there;
-mirrors make zigzags of it, with a thinner film at a bend.
+`ends = "periodic"`, where heights must repeat: a whole number of waves, or a random surface with
+`repeat_y`. An oblique lay goes on as it is there; mirrors make zigzags of it, with a thinner film
+at a bend.
 
 **Ridges along the flow** guide the oil into the gaps beside them: the film on crests is thinner.
 
@@ -19,16 +20,14 @@ import tehl
 
 HEIGHT = {"type": "wave", "amplitude": "60 nm", "wavelength": "100 um"}
 OBLIQUE = HEIGHT | {"angle": "45 deg", "wavelength": f"{100 * 2**0.5} um"}
+RANDOM = {"type": "random", "rms": "40 nm", "correlation_length": "30 um", "seed": 2}
 SURFACES = {
     "smooth": ({}, "mirrored"),
     "along": (HEIGHT | {"angle": "90 deg"}, "mirrored"),
     "across": (HEIGHT, "mirrored"),
     "oblique": (OBLIQUE, "periodic"),
     "zigzag": (OBLIQUE, "mirrored"),
-    "random": (
-        {"type": "random", "rms": "40 nm", "correlation_length": "30 um", "seed": 2},
-        "mirrored",
-    ),
+    "random": (RANDOM | {"repeat_y": "0.2 mm"}, "periodic"),
 }
 
 

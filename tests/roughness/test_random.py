@@ -120,6 +120,30 @@ def test_wavelengths_are_those_of_the_slopes(surface):
     assert surface.shortest_wavelength <= min(surface.shortest_wavelengths)
 
 
+@pytest.mark.parametrize(
+    "spectrum",
+    [
+        {"correlation_length": 30e-6},
+        {"correlation_length": 60e-6, "correlation_length_y": 17e-6},
+        {"spectrum": "self-affine", "roll_off": 40e-6},
+    ],
+)
+def test_a_surface_repeats_after_the_stated_distance(spectrum):
+    surface = Random(rms=1e-7, seed=3, repeat_y=0.2e-3, **spectrum)
+    assert surface.period[1] == pytest.approx(0.2e-3, rel=1e-12)
+    x, y = np.linspace(-1e-3, 1e-3, 200)[None], np.linspace(0.0, 0.2e-3, 641)[:, None]
+    for shown in (surface, surface.resolved_on(4e-6, 3e-6), surface.resolved_on(15e-6, 10e-6)):
+        here = shown.height(x, y)
+        for way in (-0.2e-3, 0.4e-3):
+            np.testing.assert_allclose(shown.height(x, y + way), here, atol=1e-14)
+    along, across = surface.shortest_wavelengths
+    free = Random(rms=1e-7, seed=3, **spectrum)
+    assert (along, across) == free.shortest_wavelengths
+    # a narrow strip has few waves along y
+    slopes = np.gradient(surface.height(x, y), y[1, 0], axis=0)
+    assert 2.0 * np.pi * 1e-7 / slopes.std() == pytest.approx(across, rel=0.15)
+
+
 def test_a_mesh_gets_the_waves_that_it_can_carry():
     fine, coarse = ROLLED.resolved_on(5e-7, 5e-7), ROLLED.resolved_on(1e-5, 1e-5)
     x = np.linspace(-3e-4, 3e-4, 61)
@@ -169,6 +193,9 @@ def test_a_sum_is_resolved_part_by_part():
         ({"correlation_length": 1e-7}, "not small beside correlation_length"),
         ({"correlation_length": 1e-5, "seed": -1}, "whole number from 0"),
         ({"correlation_length": 1e-5, "seed": 1.5}, "whole number from 0"),
+        ({"correlation_length": 1e-5, "repeat_y": 3e-5}, "at least 4 correlation"),
+        ({"correlation_length": 1e-5, "repeat_y": 3e-3}, "at most 0.00256 m"),
+        ({"correlation_length": 1e-5, "repeat_y": 1e-4, "angle": 0.1}, "repeats obliquely"),
     ],
 )
 def test_wrong_spectra_are_reported(keys, words):

@@ -194,6 +194,16 @@ def test_heights_that_do_not_repeat_are_named(surface):
         tehl.solve(periodic(surface_2=surface), Options(points=(129, 65)))
 
 
+def test_a_random_surface_that_repeats_goes_on():
+    heights = {"type": "random", "rms": "40 nm", "correlation_length": "30 um"}
+    surface = STEEL | {"roughness": heights | {"repeat_y": "0.2 mm", "seed": 2}}
+    found = tehl.solve(periodic(surface_2=surface), Options(points=(129, 65)))
+    stood = found.heights.surface_2
+    assert stood.std() == pytest.approx(40e-9, rel=0.1)
+    assert np.array_equal(stood[0], stood[-1])
+    assert np.abs(stood[1] - stood[-2]).max() > 1e-9  # no mirrors
+
+
 def test_a_dimple_within_a_piece_repeats():
     dimple = {"type": "bump", "amplitude": "0.1 um", "radius": "20 um"}
     found = tehl.solve(periodic(surface_2=STEEL | {"roughness": dimple}), Options(error="5 %"))

@@ -177,8 +177,8 @@ def check_ends(scaled: ScaledProblem, grid: Grid) -> None:
             raise InputError(
                 f"surface_{number}.roughness: the heights beside both ends of the piece differ by "
                 f"{100.0 * apart / size:.2g} % of their range; with contact.ends = "
-                f'"periodic" they must repeat along y after contact.length = {piece:.6g} mm, as '
-                "waves do of which a whole number fits; "
+                f'"periodic" they must repeat along y after contact.length = {piece:.6g} mm, as a '
+                "whole number of waves or a random surface with that repeat_y; "
                 'contact.ends = "mirrored" takes any heights'
             )
 

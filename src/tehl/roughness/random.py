@@ -25,6 +25,8 @@ _PER_LENGTH, _LATTICE_POINTS = 4, 1024
 """Points per correlation length or cut-off, and of the lattice."""
 _WIDE_RANGE, _LARGEST_RANGE = 16.0, 64.0
 _LENGTHS = ("correlation_length", "roll_off")
+_LEAST_LENGTHS = 4
+"""Fewest correlation or roll-off lengths after which a surface repeats along y."""
 _SHORTEST_LENGTH, _LONGEST_LENGTH = 1e-12, 1e6
 _LARGEST_KURTOSIS = 20.0
 _FIT_BINS, _STARTS, _LARGEST_FIT_ERROR = 4001, (0.0, 1.0, 3.0), 1e-3
@@ -108,19 +110,17 @@ class Spectral(TileModel):
         return self.roll_off / self.cut_off if self.cut_off is not None else _WIDE_RANGE
 
     @property
-    def lattice(self) -> tuple[int, tuple[float, float]]:
-        """Return points per direction and pixels [m] of the lattice."""
+    def lattice(self) -> tuple[tuple[int, int], tuple[float, float]]:
+        """Return points along u and v, and pixels [m], of the lattice."""
         along, across = (length / self._band / _PER_LENGTH for length in self._lengths)
-        return (_LATTICE_POINTS if self._band <= _WIDE_RANGE else 2 * _LATTICE_POINTS), (
-            along,
-            across,
-        )
+        points = _LATTICE_POINTS if self._band <= _WIDE_RANGE else 2 * _LATTICE_POINTS
+        return (points, points), (along, across)
 
     @property
     def period(self) -> tuple[float, float]:
         """Return the distances after which the surface repeats, along u and v [m]."""
-        points, (along, across) = self.lattice
-        return points * along, points * across
+        (columns, rows), (along, across) = self.lattice
+        return columns * along, rows * across
 
     @property
     def is_smooth(self) -> bool:
@@ -186,6 +186,9 @@ class Random(Spectral):
     """By which the lay is turned [rad], as the crests of a wave are."""
     seed: Seed = 0
     """The same number gives the same surface."""
+    repeat_y: Wavelength | None = None
+    """Distance after which it repeats along y [m], such as the length of a piece with periodic
+    ends; that of its own lattice, 256 correlation lengths, if left out."""
     skewness: Number = 0.0
     kurtosis: PositiveNumber = 3.0
     """Ssk and Sku [-]; 0 and 3 is a Gaussian distribution of heights. Others are made by a monotone
@@ -209,6 +212,32 @@ class Random(Spectral):
                 f"it must lie between {least:.3g} and {_LARGEST_KURTOSIS:g}"
             )
         return self
+
+    @model_validator(mode="after")
+    def _must_repeat_on_its_lattice(self) -> Self:
+        if self.repeat_y is None:
+            return self
+        (_, most), (_, pixel) = super().lattice
+        least = _LEAST_LENGTHS * self._lengths[1]
+        if self.angle != 0.0:
+            raise ValueError(
+                "repeat_y and angle exclude each other: a turned lay repeats obliquely"
+            )
+        if not least <= self.repeat_y <= most * pixel:
+            raise ValueError(
+                f"repeat_y = {self.repeat_y:g} m: must be at least {_LEAST_LENGTHS} correlation or "
+                f"roll-off lengths along y, {least:g} m, and at most {most * pixel:g} m"
+            )
+        return self
+
+    @property
+    def lattice(self) -> tuple[tuple[int, int], tuple[float, float]]:
+        """Return points along u and v, and pixels [m], of the lattice."""
+        (columns, rows), (along, across) = super().lattice
+        if self.repeat_y is not None:
+            rows = math.ceil(self.repeat_y / across * (1.0 - 1e-9))
+            across = self.repeat_y / rows
+        return (columns, rows), (along, across)
 
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:
@@ -249,14 +278,14 @@ def _tile_of(surface: Random) -> "Tile":
 
     from tehl.roughness.tile import Tile  # noqa: PLC0415
 
-    points, pixel = surface.lattice
-    noise = np.random.default_rng(surface.seed).standard_normal((points, points))
+    (columns, rows), pixel = surface.lattice
+    noise = np.random.default_rng(surface.seed).standard_normal((rows, columns))
     along, across = (2.0 * np.pi / step for step in pixel)
     density = surface.density(
-        along * fft.rfftfreq(points), across * fft.fftfreq(points)[:, np.newaxis]
+        along * fft.rfftfreq(columns), across * fft.fftfreq(rows)[:, np.newaxis]
     )
     density[0, 0] = 0.0
-    heights = fft.irfft2(fft.rfft2(noise) * np.sqrt(density), (points, points))
+    heights = fft.irfft2(fft.rfft2(noise) * np.sqrt(density), (rows, columns))
     heights /= np.sqrt(np.mean(np.square(heights)))
     if (surface.skewness, surface.kurtosis) != (0.0, 3.0):
         heights = _with_moments(heights, surface.skewness, surface.kurtosis)
