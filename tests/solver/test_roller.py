@@ -14,7 +14,7 @@ from tehl.contact.options import Domain, Options
 from tehl.estimate.domain import domain_of
 from tehl.estimate.grid import Grid, closest
 from tehl.estimate.nodes import finest_grid
-from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.estimate.settled import settled
 from tehl.estimate.third_order import third_order_bar
 from tehl.io.templates import template_text
@@ -255,7 +255,24 @@ def test_rough_rollers_have_a_wedge_of_third_order():
     smooth = tehl.solve(roller(profile=stated["profile"]), Options(points=(129, 65)))
     assert found.film_scaled.central == pytest.approx(smooth.film_scaled.central, rel=5e-3)
     moving = roller(**stated, transient={"duration": "1 ms", "load": "1 + t/(1 ms)"})
-    assert settled(moving, Options()).order == 2  # as the steps of time
+    assert settled(moving, Options()).order == 3  # in time too
+
+
+def test_the_middle_of_a_roller_has_third_order_while_its_speed_varies():
+    """Of second order it errs by 6 % on 65 nodes, and by 1.6 % on 129."""
+    shape = {"length": "1 mm", "profile": LOGARITHMIC, "moes_speed": 6.0}
+    units = scales(roller(10.0, **shape))
+    unit = units.half_width_x / units.speed
+    course = {"duration": 3 * unit, "entrainment_speed": f"1 + 0.3*sin(2*t/({unit!r} s))"}
+    case = roller(10.0, **shape, transient=course | {"frames": 0})
+    assert settled(case, Options()).order == 3
+    fine, coarse = (
+        tehl.solve_transient(case, Options(points=(nodes, 65), wedge_order=3)).history
+        for nodes in (129, 65)
+    )
+    middle = np.interp(coarse.time, fine.time, fine.film_central)
+    assert np.ptp(middle) > 0.1 * middle[0]
+    assert coarse.film_central == pytest.approx(middle, rel=5e-3)
 
 
 def test_a_sharp_end_under_pressure_has_no_thinnest_film():
