@@ -1,6 +1,7 @@
 """Pieces of rollers that go on: behind mirrors, or with the film of their other end."""
 
 import math
+from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -150,6 +151,7 @@ def test_a_film_that_wraps_does_not_depend_on_where_its_ends_are(physics):
     assert float(np.ptp(first.scaled.film[:, 64])) > 0.005 * first.film_scaled.central
     if physics == "touching":
         assert first.touching.share > 0.1
+        assert asdict(first.touching.patches) == pytest.approx(asdict(moved.touching.patches))
 
 
 def test_a_wave_that_is_even_about_both_ends_is_that_between_mirrors():

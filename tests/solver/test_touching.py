@@ -200,6 +200,17 @@ def test_a_long_patch_is_resolved_if_its_width_is():
     assert widths == pytest.approx([4.0, 10.0, 2.0 * np.sqrt(round_one.sum() / np.pi)])
 
 
+def test_a_patch_across_both_ends_of_a_film_that_wraps_is_one():
+    round_one = np.hypot.outer(*2 * [np.arange(60) - 30.0]) < 6.0
+    film = np.where(round_one, 1.0, 2.0)
+    film = np.concatenate([film, film[:1]])
+    moved = np.roll(film[:-1], 30, axis=0)
+    moved = np.concatenate([moved, moved[:1]])
+    loads = np.ones((1, *film.shape))
+    here, there = (largest_patches(1.0, one[None], loads, wraps=True) for one in (film, moved))
+    assert there == here > largest_patches(1.0, moved[None], loads)
+
+
 def test_friction_where_surfaces_touch_is_the_stated_coefficient():
     tables = ball_tables(contact_film={"thickness": "5 nm", "friction": 0.12})
     tables["contact"] = tables["contact"] | {

@@ -145,7 +145,9 @@ def touching_nodes(result: Solution) -> BoolArray:
     return film.meets(result.film_thickness)
 
 
-def largest_patches(least: float, films: SingleArray, pressures: SingleArray) -> float:
+def largest_patches(
+    least: float, films: SingleArray, pressures: SingleArray, *, wraps: bool = False
+) -> float:
     """Return the largest mean diameter of patches of contact in some fields [mesh widths].
 
     Parameters
@@ -154,6 +156,8 @@ def largest_patches(least: float, films: SingleArray, pressures: SingleArray) ->
         Thickness of the boundary film [m].
     films, pressures : array, (n, ny, nx)
         Thickness [m] and pressure [Pa].
+    wraps : bool
+        Whether the last row is the first one again.
 
     Returns
     -------
@@ -164,7 +168,7 @@ def largest_patches(least: float, films: SingleArray, pressures: SingleArray) ->
     for film, pressure in zip(films, pressures, strict=True):
         meet = film <= (1.0 + TOUCHING_MARGIN) * least
         if meet.any():
-            cells = max(cells, _diameters(meet, pressure)[-1])
+            cells = max(cells, _diameters(meet, pressure, wraps=wraps)[-1])
     return cells
 
 
@@ -176,29 +180,44 @@ def _film_friction(result: Solution) -> float | None:
 def _patches(result: Solution, meet: BoolArray, loads: Array, both: Array) -> Patches | None:
     if not meet.any():
         return None
-    nodes, cells = _diameters(meet, loads)
+    wraps = result.groups.shape.wraps
+    nodes, cells = _diameters(meet, loads, wraps=wraps)
+    pressed = both[:-1][meet[:-1]] if wraps else both[meet]
     cell = float(result.x[1] - result.x[0]) * float(cell_widths(result.y).max())
     return Patches(
         number=nodes.size,
         area_mean=float(nodes.mean()) * cell,
         area_largest=float(nodes.max()) * cell,
-        pressure_mean=float(both[meet].mean()),
-        pressure_max=float(both[meet].max()),
+        pressure_mean=float(pressed.mean()),
+        pressure_max=float(pressed.max()),
         cells=cells,
     )
 
 
-def _diameters(meet: BoolArray, loads: Array) -> tuple[IntArray, float]:
+def _diameters(meet: BoolArray, loads: Array, *, wraps: bool) -> tuple[IntArray, float]:
     """Return the nodes of each patch, and the mean diameter weighted by load [mesh widths].
 
     The diameter is that of a circle of its area, or the width of the patch where it is broadest if
     that is less: a long patch is resolved if its width is. In a line contact it is its length.
+    A patch across both ends of a film that wraps is one.
     """
     # 0.1 s, for contacts that touch only
     from scipy.ndimage import distance_transform_edt, label, maximum  # noqa: PLC0415
 
+    if wraps:
+        meet, loads = meet[:-1], np.concatenate([loads[:1] + loads[-1:], loads[1:-1]])
     labels, number = label(meet)
-    depth = distance_transform_edt(np.pad(meet, 1))[1:-1, 1:-1]
+    beside = np.pad(meet, ((0, 0), (1, 1)))
+    around = len(meet) if wraps else 1
+    beside = np.pad(beside, ((around, around), (0, 0)), mode="wrap" if wraps else "constant")
+    depth = distance_transform_edt(beside)[around:-around, 1:-1]
+    if wraps:
+        for south, north in zip(labels[-1], labels[0], strict=True):
+            if south and north:
+                labels[labels == north] = south
+        known = np.unique(np.append(0, labels), return_inverse=True)[1][1:]
+        labels = known.reshape(labels.shape)
+        number = int(labels.max())
     nodes = np.bincount(labels.ravel())[1:]
     carried = np.bincount(labels.ravel(), weights=loads.ravel())[1:]
     widths = 2.0 * np.asarray(maximum(depth, labels, np.arange(1, number + 1)))

@@ -72,8 +72,10 @@ def patch_cells(run: TransientSolution) -> float:
 
     Zero where surfaces do not touch through a boundary film in any of them.
     """
-    film, frames = run.start.problem.contact_film, run.frames
-    return 0.0 if film is None else largest_patches(film.thickness, frames.film, frames.pressure)
+    film, frames, shape = run.start.problem.contact_film, run.frames, run.start.groups.shape
+    if film is None:
+        return 0.0
+    return largest_patches(film.thickness, frames.film, frames.pressure, wraps=shape.wraps)
 
 
 def why_share_unknown(run: TransientSolution) -> str:
