@@ -208,7 +208,8 @@ def test_a_patch_across_both_ends_of_a_film_that_wraps_is_one():
     moved = np.concatenate([moved, moved[:1]])
     loads = np.ones((1, *film.shape))
     here, there = (largest_patches(1.0, one[None], loads, wraps=True) for one in (film, moved))
-    assert there == here > largest_patches(1.0, moved[None], loads)
+    assert there == pytest.approx(here, rel=1e-12)
+    assert largest_patches(1.0, moved[None], loads) < 0.8 * here
 
 
 def test_friction_where_surfaces_touch_is_the_stated_coefficient():
