@@ -60,6 +60,18 @@ def test_a_source_that_wraps_is_that_of_a_row_of_images(peclet):
     assert np.array_equal(found[-1], found[0])
 
 
+@pytest.mark.parametrize("velocity", [(5.0, 2.0), (5.0, -8.0), (0.5, 0.5)])
+def test_heat_that_leaves_one_end_comes_back_at_the_other(velocity):
+    flux = np.random.default_rng(3).random((13, 17))
+    flux[-1] = flux[0]
+    cell = (0.05, 0.1)
+    found = FullSource(flux.shape, WRAPS, cell, velocity, 1.0).rise(flux)
+    row = np.tile(flux[:-1], (161, 1))  # 80 periods on each side
+    whole = FullSource(row.shape, 0, cell, velocity, 1.0).rise(row)[80 * 12 : 80 * 12 + 13]
+    np.testing.assert_allclose(found, whole, rtol=0.0, atol=1e-3 * found.max())
+    assert np.array_equal(found[-1], found[0])
+
+
 def test_the_heat_of_a_surface_that_runs_backwards_goes_the_other_way():
     flux = np.random.default_rng(3).random((9, 17))
     forward = FullSource(flux.shape, True, (0.2, 0.1), (4.0, 0.0), 1.0).rise(flux)

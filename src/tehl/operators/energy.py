@@ -191,7 +191,11 @@ class FilmState:
         # the mean flow 1 - mean_spin y, mean_spin x carries the density with the part of slide_x
         along, across = mean_spin * y * slide_x * odd, (slide_y - mean_spin * x * slide_x) * odd
         found: Array = np.gradient(along, grid.dx, axis=1)
-        if grid.ny > 1:
+        if grid.wraps:
+            south, north = grid.beyond(across, 1)
+            wider = np.concatenate([south, across, north])
+            found += np.gradient(wider, float(y[1, 0] - y[0, 0]), axis=0)[1:-1]
+        elif grid.ny > 1:
             found += np.gradient(across, y[:, 0], axis=0)
         return found
 

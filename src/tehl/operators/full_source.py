@@ -61,7 +61,9 @@ class FullSource:
         self.mirror, self.shape, self.wraps = mirrors > 0, (ny, nx), wraps
         self.period = (ny - 1 if wraps else 2 * (ny - 1) or 1, 2 * (nx - 1))
         rows = np.arange(self.period[0] // 2 + 1 if wraps else ny)
-        if peclet[1] != 0.0:  # not even in y
+        if wraps and peclet[1] != 0.0:
+            rows = np.arange(self.period[0])
+        elif peclet[1] != 0.0:  # not even in y
             rows = np.arange(self.period[0])
             rows = np.where(rows < ny, rows, rows - self.period[0])
         columns = np.arange(2 * (nx - 1))
@@ -134,16 +136,25 @@ def _split(
 def _periodic_source(
     rows: IntArray, columns: IntArray, cell: tuple[float, float], peclet: tuple[float, float]
 ) -> Array:
-    """Return the same of a cell and its images, at all multiples of a period of twice the rows.
+    """Return the same of a cell and its images at all multiples of a period.
 
-    Rows of one period together are a `_row_source`, from which the part of images far away follows:
-    they differ little from row to row.
+    That is twice the rows, or as long as they are where the source is not even in y. Rows of one
+    period together are a `_row_source`, from which the part of images far away follows: they differ
+    little from row to row. Where heat moves along y too, those are images whose paths do not come
+    back within the columns.
     """
-    period = 2 * (rows.size - 1)
-    images = range(-SOURCE_IMAGES * period, (SOURCE_IMAGES + 1) * period, period)
-    table = sum(_point_source(np.abs(rows + image), columns, cell, peclet) for image in images)
-    counts = np.full(rows.size, 2.0)
-    counts[[0, -1]] = 1.0
+    along, across = peclet
+    if across == 0.0:
+        period = 2 * (rows.size - 1)
+        counts = np.full(rows.size, 2.0)
+        counts[[0, -1]] = 1.0
+    else:
+        period, counts = rows.size, np.ones(rows.size)
+        rows = (rows + period // 2) % period - period // 2
+    reach = np.abs(columns).max() * cell[1] * abs(across) / (abs(along) * period * cell[0])
+    most = SOURCE_IMAGES + math.ceil(reach)
+    images = range(-most * period, (most + 1) * period, period)
+    table = sum(_point_source(rows + image, columns, cell, peclet) for image in images)
     missing = _row_source(rows, columns, (math.inf, cell[1]), peclet) - counts @ table
     return np.asarray(table + missing / period)
 

@@ -143,7 +143,8 @@ def _side(
     if conductivity > 0.0:
         peclet = 0.5 * speed * scales.half_width_x * density * capacity / conductivity
         peclet_y = 0.5 * across * scales.half_width_x * density * capacity / conductivity
-    steep = abs(across) > STEEPEST_PATH * speed
+    # paths leave a piece and come back at its other end: their full sources have images
+    steep = abs(across) > STEEPEST_PATH * speed or problem.shape.wraps
     return Side(
         bulk=bulk,
         speed=speed,
