@@ -25,13 +25,15 @@ of it is then left, as little as a start and the place of a spike need."""
 SEARCHED, SEARCHED_CELLS = (65, 129), (0.05, 0.01)
 """Nodes on which the loaded part of a roller is searched, and lengths of the cells where it was
 found to end, on which it is searched again, in half-widths."""
-STEEP_END, LEAST_OF_STEEP, WIDE_OF_STEEP = 0.4, 0.35, 1.2
+STEEP_END, VALLEY_CELL, THICK_CELL = 0.4, 2.0, 6.5
 """Distance from the end of the loaded part to half of the largest pressure below which cells there
-are shorter, in half-widths, and the least part of their length, itself and over the root of the
-central film: a lundberg profile (M = 50) has 0.03, and its minimum is 60 % too thick on 257 x 129
-nodes with cells of full length, and 33 % on 513 x 257. Between shorter cells at gradual ends oil of
-cavities moves slowly. A thick film leaves no step: with 0.35 in place of 0.54 cycles at M = 12,
-L = 15 alternate."""
+are shorter, in half-widths, and the shortest ones: their length over the width, over H_c^(2/3) and
+over H_c for the central film, of which the longer counts. The dry gap opens as the power 3/2 of the
+distance, so the valley lies 0.26 H_c^(2/3) before the end of the dry contact. The minimum of
+lundberg profiles on 129 x 65, 257 x 129 and 513 x 257 nodes then errs by 6, 0.5 and 0.2 % (M = 50),
+and by 26, 7 and 1 % (M = 64, L = 1.3); with cells three times as long by 3 and 0.2 %, and 21 and
+5 % on the last two. A thick film leaves no step: at H_c = 0.19 cycles on 513 x 257 nodes diverge
+without the second length."""
 START_CELLS = 2.0
 """Half-width of the contact to start from, in cells at the least."""
 STEEP_LINES = 65
@@ -193,9 +195,11 @@ def at_loaded_ends(grid: Grid, groups: Groups) -> Grid:
         edges, ramp = _loaded_part(crowded, groups)
     if edges == grid.edges:
         return grid
+    longest, film = closest(grid.crowding, grid.edges), expected_central_film(groups)
     steepness = 1.0 if max(edges) == 1.0 else groups.ellipticity * ramp / STEEP_END
-    least = max(LEAST_OF_STEEP, WIDE_OF_STEEP * expected_central_film(groups) ** 0.5)
-    part = closest(grid.crowding, grid.edges) * min(max(steepness, least), 1.0)
+    shortest = max(VALLEY_CELL * film ** (2.0 / 3.0), THICK_CELL * film)
+    shortest *= grid.dx / (groups.ellipticity * grid.dy)
+    part = min(max(longest * steepness, shortest), longest)
     return replace(grid, edges=edges, crowding=crowding(part, edges))
 
 
