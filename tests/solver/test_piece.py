@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 import tehl
-from tehl.contact.options import Options
+from tehl.contact.options import Domain, Options
+from tehl.estimate.grid import Grid
+from tehl.solver.judging.film_summary import film_summary
 
 STEEL = {"material": "steel"}
 LINE_FILM = 0.0297827
@@ -149,9 +151,22 @@ def test_a_film_that_wraps_does_not_depend_on_where_its_ends_are(physics):
             mean = other.temperature.mean[place]
             assert one.temperature.mean == pytest.approx(mean, abs=1e-5)
     assert float(np.ptp(first.scaled.film[:, 64])) > 0.005 * first.film_scaled.central
+    assert moved.film.minimum == pytest.approx(first.film.minimum, rel=1e-6)
     if physics == "touching":
         assert first.touching.share > 0.1
         assert asdict(first.touching.patches) == pytest.approx(asdict(moved.touching.patches))
+
+
+@pytest.mark.parametrize("shift", [-0.4, 0.0, 0.3])
+def test_the_thinnest_film_may_be_between_both_ends(shift):
+    ends = Domain.model_construct(x=(-1.0, 1.0), y=(-1.0, 1.0))
+    grid = Grid(nx=33, ny=33, domain=ends, mirror=False, wraps=True)
+    place = 1.0 + shift * grid.dy
+    film = 2.0 - np.cos(np.pi * (grid.y[:, None] - place)) + grid.x**2
+    found = film_summary(grid, film)
+    assert found.minimum == pytest.approx(1.0, abs=2e-5)
+    assert (found.minimum_at[1] - place + 1.0) % 2.0 - 1.0 == pytest.approx(0.0, abs=1e-3)
+    assert -1.0 <= found.minimum_at[1] <= 1.0
 
 
 @pytest.mark.parametrize("angle", [40.0, 90.0])

@@ -80,15 +80,21 @@ def film_summary(grid: Grid, film: Array, least: float | None = None) -> FilmSum
     full = grid.unfold(film)
     row = replace(grid, mirror=False).y
     j, i = (int(n) for n in np.unravel_index(int(full.argmin()), full.shape))
+    wide, at = full, j
+    if grid.wraps:  # no edge
+        before, behind = grid.beyond(full, min(SPLINE_NODES, grid.ny - 1))
+        wide, at = np.concatenate([before, full, behind]), j + len(before)
     # `SPLINE_NODES` nodes on each side of (j, i), symmetrically fewer near edges
-    across, along = min(SPLINE_NODES, j, grid.ny - 1 - j), min(SPLINE_NODES, i, grid.nx - 1 - i)
-    patch = full[j - across : j + across + 1, i - along : i + along + 1]
+    across, along = min(SPLINE_NODES, at, len(wide) - 1 - at), min(SPLINE_NODES, i, grid.nx - 1 - i)
+    patch = wide[at - across : at + across + 1, i - along : i + along + 1]
     if grid.crowding:
-        patch = full[j - across : j + across + 1].min(axis=1, keepdims=True)
+        patch = wide[at - across : at + across + 1].min(axis=1, keepdims=True)
     minimum, (shift_y, shift_x) = subgrid_minimum(patch)
     if grid.is_closed and minimum < LEAST_OF_NODE * full[j, i] and patch.min() > 0.0:
         logarithm, (shift_y, shift_x) = subgrid_minimum(np.log(patch))
         minimum = math.exp(logarithm)
+    if grid.wraps:
+        shift_y = (j + shift_y) % (grid.ny - 1) - j
     at_y = float(np.interp(j + shift_y, np.arange(row.size), row))
     floor = -np.inf if least is None else least
     return FilmSummary(
