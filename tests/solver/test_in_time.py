@@ -163,6 +163,17 @@ def test_a_wedge_of_third_order_stays_so_while_the_speed_varies(shape):
     assert (off[fewest, 3] < 0.3 * off[fewest, 2]).all()
 
 
+def test_a_node_where_a_starved_film_begins_comes_to_rest_between_two_values():
+    """It went to and fro by 1.2 tolerances in all cycles of a step, after a reversal."""
+    case = moes_contact(60, 8)
+    unit = scales(case).half_width_x / scales(case).speed
+    course = {"duration": 3 * unit, "entrainment_speed": [[0.0, 1.0], [3 * unit, -0.6]]}
+    turning = with_tables(case, **SCARCE, transient=course | {"frames": 0})
+    run = solve_transient(turning, Options(points=129, wedge_order=3))
+    assert run.status.converged
+    assert run.history.cycles.max() < 8
+
+
 def test_a_film_that_touches_errs_less_by_geometric_means_while_the_load_varies():
     case = moes_contact(50, 5)
     unit = scales(case).half_width_x / scales(case).speed

@@ -39,6 +39,8 @@ LARGEST_REST = 0.01
 to touch change little."""
 LARGEST_STEP_KELVIN_CHANGE = 0.01
 """Change of temperature in the last cycle of a step, over the largest rise."""
+ALTERNATING = 0.5
+"""Part of the last change of a pressure, from which on the next one takes it back."""
 WEIGHT_OF_POINTS = 12.0
 """Weight of rho H in a step over the conductance from which nodes relax as points. A smooth error
 moves the film more than a point does, and grows where the conductance does not outweigh it: at
@@ -174,6 +176,7 @@ class Stepper:
     def _solve(self, name: str) -> StepEnd:
         """Perform cycles until the step has converged."""
         level, change = self.solver.finest, np.inf
+        last = np.zeros_like(level.pressure)
         times = 1 + self.setting  # slower relaxations get more cycles
         if self.touching is not None:
             self.touching.begin()
@@ -195,6 +198,10 @@ class Stepper:
                 done = done and level.evaluate_residual() <= LARGEST_REST * self.transient.tolerance
             if number >= LEAST_CYCLES and done:
                 return StepEnd(cycles=number, change=change, load_error=error, smoother=name)
+            if self.touching is None and _alternates(before, last):
+                level.set_pressure(level.pressure - 0.5 * before)
+                before[:] = 0.0
+            last = before
         raise StepError("stalled", change)
 
     def _lead(self) -> Array | None:
@@ -218,3 +225,13 @@ class Stepper:
         more = self.squeeze.update(now)
         history += more
         level.sources.reynolds -= more
+
+
+def _alternates(change: Array, last: Array) -> bool:
+    """Return whether the largest change of a cycle takes back more than half of the last one.
+
+    The first node of a film may alternate between two values by little more than the tolerance:
+    midway it rests.
+    """
+    place = np.unravel_index(int(np.abs(change).argmax()), change.shape)
+    return bool(last[place] * change[place] < -ALTERNATING * change[place] ** 2)
