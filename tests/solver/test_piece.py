@@ -230,6 +230,23 @@ def test_an_oblique_wave_moves_through_a_film_that_wraps_wherever_its_ends_are()
     assert moved == pytest.approx(first[rows], rel=1e-4)  # steps end at their tolerance
 
 
+def test_the_stiffness_of_scarce_oil_does_not_depend_on_where_the_ends_are():
+    """The fronts at which its film begins go on beyond the ends too."""
+    first, moved = (
+        tehl.solve(
+            periodic(
+                surface_2=oblique(60.0, phase, "60 nm"),
+                supply={"ratio": 0.5},
+                dynamics={"frequencies": ["300 Hz", "3 kHz"]},
+            ),
+            Options(points=(129, 33), wedge_order=3, accuracy="tight"),
+        ).dynamics
+        for phase in ("0 deg", "90 deg")
+    )
+    assert moved.stiffness == pytest.approx(first.stiffness, rel=1e-6)
+    assert moved.damping == pytest.approx(first.damping, rel=3e-3)  # of 0.1 % of the stiffness
+
+
 @pytest.mark.parametrize(
     "surface",
     [

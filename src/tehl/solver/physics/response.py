@@ -221,17 +221,25 @@ def moving_front(level: Level) -> tuple[csr_matrix, Array]:
     flow = 0.5 * slope[both] / (grid.dx * width)
     first_image, last_image = grid.mirror or grid.is_closed, grid.is_closed
     times = np.ones(lines.size)  # images beyond a line bring as much again
-    times[0], times[-1] = 1.0 + first_image, 1.0 + last_image
+    if not grid.wraps:
+        times[0], times[-1] = 1.0 + first_image, 1.0 + last_image
     entries = [
         (row, column, sign * flow * eps[at][both])
         for row, sign in ((low, -times[:-1][both]), (high, times[1:][both]))
         for column, at in ((low, slice(None, -1)), (high, slice(1, None)))
     ]
     row, column, value = (np.concatenate(part) for part in zip(*entries, strict=True))
+    if grid.wraps:  # both ends are one line: what one gets the other does
+        other = np.where(row == node[0], node[-1], np.where(row == node[-1], node[0], -1))
+        ends = other >= 0
+        row, column = np.append(row, other[ends]), np.append(column, column[ends])
+        value = np.append(value, value[ends])
     along = csr_matrix((value, (row, column)), shape=(wet.size, wet.size))
     none = np.zeros(1)
     before = np.append(-slope[:1] if first_image and slope.size else none, slope)
     after = np.append(slope, -slope[-1:] if last_image and slope.size else none)
+    if grid.wraps:
+        before[0], after[-1] = slope[-1], slope[0]
     mean, swept = 0.5 * (before + after), np.zeros(wet.size)
     swept[node[has]] = (eps * (1.0 + mean**2) / grid.dx)[has]
     return along, swept
