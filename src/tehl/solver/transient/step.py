@@ -174,8 +174,12 @@ class Stepper:
             level.set_relaxation(replace(setting, threshold=threshold))
 
     def _solve(self, name: str) -> StepEnd:
-        """Perform cycles until the step has converged."""
-        level, change = self.solver.finest, np.inf
+        """Perform cycles until the step has converged.
+
+        Temperatures that have settled are not computed again for a cycle that hardly changes the
+        pressure.
+        """
+        level, change, is_warm = self.solver.finest, np.inf, False
         last = np.zeros_like(level.pressure)
         times = 1 + self.setting  # slower relaxations get more cycles
         if self.touching is not None:
@@ -184,16 +188,18 @@ class Stepper:
             before = level.pressure.copy()
             self.method()
             level.update()
-            warmer, rise = self.solver.coupling.update(self.solver.levels)
-            self._follow_density()
             np.subtract(level.pressure, before, out=before)
             change = float(max(before.max(), -before.min()))
+            if not (is_warm and change <= self.transient.tolerance):
+                warmer, rise = self.solver.coupling.update(self.solver.levels)
+                is_warm = warmer <= max(LARGEST_STEP_KELVIN_CHANGE * rise, LEAST_KELVIN)
+                self._follow_density()
             error = level.load_error()
             finite = np.isfinite(change) and np.isfinite(level.film.h).all()
             if not (finite and abs(error) < RUNAWAY):
                 raise StepError("diverged", change)
             done = change <= self.transient.tolerance and abs(error) <= LARGEST_STEP_LOAD_ERROR
-            done = done and warmer <= max(LARGEST_STEP_KELVIN_CHANGE * rise, LEAST_KELVIN)
+            done = done and is_warm
             if self.touching is not None:
                 done = done and level.evaluate_residual() <= LARGEST_REST * self.transient.tolerance
             if number >= LEAST_CYCLES and done:
