@@ -4,6 +4,7 @@
 import itertools
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -208,6 +209,7 @@ def test_a_run_that_ends_at_its_time_is_continued_for_as_long_or_longer(
     done = run(*stated, "numerics.max_time=9")
     assert done.code == 1
     assert "numerics.max_time = 9 s is over at " in done.err
+    assert re.search(r'et numerics.max_time = "[\d.]+ s": the run takes less', done.err)
     assert "is saved in wave.nc.checkpoint; tehl solve --resume continues from it" in done.err
     first = tehl.load("wave.nc")
     assert first.status.cause == "time_over"

@@ -44,6 +44,9 @@ SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
 """Relaxations of a step, fastest first; and those for heated or shear-thinning films."""
 START_TOLERANCE, TIGHT_TIME = 1e-7, 0.5
 """Tolerance of the steady film at time zero, and part of the time for it."""
+SPARE_TIME = 2.0
+"""Time that a hint gives to the steps over what they are expected to take: `TIGHT_TIME` of it may
+go to the start."""
 NEARLY_CONVERGED = 1e-6
 """Change of P in the last cycle of a time step that only a tight tolerance rejects."""
 
@@ -192,7 +195,7 @@ class Run:
         for step in range(len(self.record.rows), self.steps + 1):
             time_now = step * self.seconds
             if self.clock.is_over:
-                return self._time_over(time_now - self.seconds)
+                return self._time_over(step - 1)
             heights = self.heights.at(time_now, self.schedule.places(step))
             try:
                 end = self.stepper.step(heights[0] + heights[1], step)
@@ -337,18 +340,27 @@ class Run:
             hint=hint,
         )
 
-    def _time_over(self, seconds: float) -> Status:
-        """Return ``time_over`` of a run that has come to ``seconds`` [s]."""
+    def _time_over(self, steps: int) -> Status:
+        """Return ``time_over`` of a run after some ``steps``; the hint is to the time it takes."""
+        advice, settings = "Take a longer numerics.max_time, or ", {}
+        if steps:
+            began, spent = self.start.cost.wall_seconds, self.clock.cost().wall_seconds
+            needed = began + SPARE_TIME * (spent - began) * self.steps / steps
+            unit = 10.0 ** (math.floor(math.log10(needed)) - 1)
+            settings = {"numerics.max_time": f"{unit * math.ceil(needed / unit):g} s"}
+            advice = "the run takes less at its speed so far; or take "
         return Status(
             kind="not_converged",
             cause=TIME_OVER,
             message=(
-                f"numerics.max_time = {self.start.options.max_time:g} s is over at {seconds:.4g} "
-                f"of {self.steps * self.seconds:.4g} s of the run. The steps until then are kept."
+                f"numerics.max_time = {self.start.options.max_time:g} s is over at "
+                f"{steps * self.seconds:.4g} of {self.steps * self.seconds:.4g} s of the run. The "
+                "steps until then are kept."
             ),
             hint=Hint(
-                "Take a longer numerics.max_time, a larger transient.stride, fewer nodes "
-                "(numerics.points) or a shorter transient.duration."
+                f"{advice}a larger transient.stride, fewer nodes (numerics.points) or a shorter "
+                "transient.duration.",
+                settings,
             ),
         )
 
