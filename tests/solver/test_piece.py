@@ -303,9 +303,13 @@ def test_a_piece_has_as_many_lines_as_its_waves_need():
         ({"profile": {"shape": "lundberg"}}, {}, "straight"),
         ({"slide_roll_ratio": 0.2, "sliding_angle": "20 deg"}, {}, "slide the other way"),
         (
-            {},
-            {"stress": {"thermal": True}, "thermal": {"temperature": "40 degC"}},
-            "whole contact",
+            {"entrainment_speed": "0.01 m/s", "moes_speed": None},
+            {
+                "surface_1": STEEL | {"temperature": "40 degC"},
+                "stress": {"thermal": True},
+                "thermal": {"temperature": "40 degC"},
+            },
+            "below 10 is that of a whole contact",
         ),
         ({"slide_roll_ratio": 2.0}, {"thermal": {"temperature": "40 degC"}}, "at rest"),
         ({"type": "point"}, {}, "has ends"),

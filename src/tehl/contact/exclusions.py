@@ -5,6 +5,7 @@ from tehl.contact.bodies import direction
 from tehl.contact.heat import LEAST_LINE
 from tehl.contact.point_contact import PointContact
 from tehl.contact.roller import LARGEST_TILT, Roller
+from tehl.contact.stress import FAST_PECLET
 
 SOLID_PART = (
     "solid contact adds a stiffness and a hysteresis of its own, and only those of the oil are "
@@ -134,13 +135,22 @@ def check_line(problem: PointContact) -> None:
             "its track has no width; state the temperature of the body",
         ),
         "stress.thermal": (
-            problem.stress is not None and problem.stress.thermal and not contact.is_line,
-            "so far the heat below is that of a whole contact",
+            not contact.is_line and _has_slow_heat(problem),
+            "so far the heat of bodies with a solid Peclet number below "
+            f"{FAST_PECLET:g} is that of a whole contact",
         ),
     }
     for name, (is_stated, why) in excluded.items():
         if is_stated:
             raise ValueError(f"{kind} and {name} exclude each other: {why}")
+
+
+def _has_slow_heat(problem: PointContact) -> bool:
+    """Whether a thermal stress is that of a body whose heat runs ahead of the contact."""
+    if problem.stress is None or not problem.stress.thermal:
+        return False
+    found = [problem.solid_peclet[body - 1] for body in problem.stress.bodies]
+    return any(peclet is not None and abs(peclet) < FAST_PECLET for peclet in found)
 
 
 def check_stress(problem: PointContact) -> None:

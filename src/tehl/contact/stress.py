@@ -10,6 +10,10 @@ from tehl.base.units import Height, NonNegativeStress, Number, Quantity
 
 SolidStress = Annotated[float, Quantity("a stress", "Pa", '"-300 MPa"', "any")]
 
+FAST_PECLET = 10.0
+"""Solid Peclet number |u_s| a_x/(2 kappa_s) from which a stress is found without that at rest: the
+wake left out changes it by 0.7 %, and below it short waves by less than 0.1 %."""
+
 
 class Stress(Table):
     """Stress below both surfaces, and measures of fatigue over those of the dry smooth contact."""

@@ -114,3 +114,39 @@ def test_the_stress_below_a_piece_over_time_begins_with_that_of_the_steady_film(
     start = run.start.with_stress(body=1).stress
     assert found.depth == pytest.approx(start.depth)
     assert found.shear[0] == pytest.approx(start.shear[0], rel=2e-3)
+
+
+FAST = {"moes_load": None, "moes_speed": None, "hertz_pressure": 0.6e9, "entrainment_speed": 4.0}
+HOT = {
+    "kind": FAST | {"slide_roll_ratio": 0.5},
+    "lubricant": THINNING,
+    "thermal": {"temperature": "40 degC"},
+    "stress": {"thermal": True},
+}
+
+
+@pytest.mark.parametrize("ends", ["periodic", "mirrored"])
+def test_the_heat_below_a_smooth_piece_is_that_below_a_line(ends):
+    options, kind = {"wedge_order": 3, "accuracy": "tight"}, HOT["kind"]
+    rest = {key: value for key, value in HOT.items() if key != "kind"}
+    line = tehl.solve(contact({"type": "line"} | kind, **rest), Options(points=(129, 1), **options))
+    found = tehl.solve(
+        piece("0.2 mm", kind=kind | {"ends": ends}, **rest), Options(points=(129, 33), **options)
+    )
+    assert found.stress.thermal == pytest.approx(line.stress.thermal, rel=1e-5)
+    assert line.stress.thermal.min() > 2e7
+    for name in ("shear", "von_mises", "orthogonal", "shear_coarse", "life"):
+        wanted = getattr(line.stress, name)
+        assert getattr(found.stress, name) == pytest.approx(wanted, rel=5e-5), name
+
+
+def test_the_heat_below_a_piece_does_not_depend_on_where_its_ends_are():
+    options = Options(points=(129, 33), wedge_order=3, accuracy="tight")
+    first, moved = (
+        tehl.solve(periodic(surface_2=oblique(60.0, phase), **HOT), options).stress
+        for phase in ("0 deg", "90 deg")
+    )
+    for name in ("shear", "orthogonal", "dang_van", "thermal", "life_coarse"):
+        assert getattr(moved, name) == pytest.approx(getattr(first, name), rel=1e-6)
+    rows = (np.arange(33) - 8) % 32
+    assert moved.across == pytest.approx(first.across[..., rows], rel=1e-5)

@@ -297,7 +297,11 @@ def _coarser(case: Case, ends: Ends) -> Case:
     (pressure, *tractions), heat = case.loads, case.heat
     along, across = (halved(one, ends, odd=k > 0) for k, one in enumerate(tractions))
     loads = SurfaceLoads(halved(pressure, ends), along, across)
-    return Case(loads, case.poisson_ratio, None if heat is None else heat.coarser(halved))
+    return Case(
+        loads,
+        case.poisson_ratio,
+        None if heat is None else heat.coarser(partial(halved, ends=ends)),
+    )
 
 
 def _with_heat(loads: SurfaceLoads, heat: ThermalBody | None) -> SurfaceLoads:

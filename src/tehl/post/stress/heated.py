@@ -2,15 +2,12 @@
 
 import numpy as np
 
+from tehl.contact.stress import FAST_PECLET
 from tehl.post.stress.loads import parts_of_cells, rubbing
 from tehl.post.stress.slow import RestingStress, SlowStress
 from tehl.post.stress.thermal import Heated, ThermalStress
 from tehl.post.stress.window import Window
 from tehl.result.solution import Solution
-
-FAST_PECLET = 10.0
-"""Solid Peclet number |u_s| a_x/(2 kappa_s) from which a stress is found without that at rest: the
-wake left out changes it by 0.7 %, and below it short waves by less than 0.1 %."""
 
 ThermalBody = ThermalStress | RestingStress | SlowStress
 
@@ -52,7 +49,7 @@ def heated_body(
     flux = flux[first[0] :, first[1] :]
     slow = abs(peclet) < FAST_PECLET
     solid = problem.surfaces[body - 1].material
-    return Heated(flux, window.spacing, speed, solid, (rows, wide), slow)
+    return Heated(flux, window.spacing, speed, solid, (rows, wide), slow, problem.contact.ends)
 
 
 def thermal_stress_of(heated: Heated) -> ThermalBody:

@@ -23,6 +23,23 @@ GAP = 16.0
 e^-16 of it is then left."""
 
 
+def over_period(field: Array, ends: Ends, *, odd: bool = False) -> Array:
+    """Return a field over a period, without the row that is the first one again.
+
+    Parameters
+    ----------
+    field : (ny, nx) array
+        Both ends included.
+    ends : {"open", "mirrored", "periodic"}
+        What lies beyond; open ones leave the field as it is.
+    odd : bool
+        Whether images behind mirrors have the opposite sign.
+    """
+    if ends == "mirrored":
+        return np.concatenate([field, (-1.0 if odd else 1.0) * field[-2:0:-1]])
+    return field[:-1] if ends == "periodic" else field
+
+
 class Decay(NamedTuple):
     """What a depth does: the wave numbers times it, and the influence of the line."""
 
@@ -90,7 +107,8 @@ class RepeatingHalfSpace:
         tractions : (ny, nx) arrays
             Force on the body over area along x, and along y.
         """
-        whole = [self._whole(load, odd=k == 2) for k, load in enumerate((pressure, *tractions))]
+        acting = enumerate((pressure, *tractions))
+        whole = [over_period(load, self.ends, odd=k == 2) for k, load in acting]
         waves: Spectra = [rfft2(load, self.period) for load in whole]
         return waves + self.line.spectra_of(*(load.mean(axis=0)[None] for load in whole))
 
@@ -140,9 +158,3 @@ class RepeatingHalfSpace:
             ]
         )
         return np.asarray(stress * np.exp(-zd))
-
-    def _whole(self, load: Array, *, odd: bool) -> Array:
-        """Return a load over a period, without its last row, which is the first one again."""
-        if self.ends == "periodic":
-            return load[:-1]
-        return np.concatenate([load, (-1.0 if odd else 1.0) * load[-2:0:-1]])

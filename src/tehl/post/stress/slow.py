@@ -46,7 +46,7 @@ class RestingStress:
     """
 
     def __init__(self, heated: Heated) -> None:
-        flux, spacing, _, solid, self.part, _ = heated
+        flux, spacing, _, solid, self.part, *_ = heated
         assert solid.conductivity is not None
         assert solid.expansion is not None
         self.shape, self.stiffness = flux.shape, solid.young_modulus * solid.expansion
@@ -111,7 +111,7 @@ class SlowStress:
     """
 
     def __init__(self, heated: Heated) -> None:
-        flux, (dy, dx), speed, solid, part, _ = heated
+        flux, (dy, dx), speed, solid, part, *_ = heated
         assert solid.diffusivity is not None
         assert solid.conductivity is not None
         assert solid.expansion is not None

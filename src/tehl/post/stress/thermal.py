@@ -19,6 +19,7 @@ from tehl.base.typing import Array
 from tehl.contact.materials import Solid
 from tehl.post.stress.influence import fast_size
 from tehl.post.stress.loads import SurfaceLoads
+from tehl.post.stress.repeating import Ends, over_period
 
 PERIOD_DECAY, SPREAD = 14.0, 7.5
 """Natural logarithm of what is left of the wake of the period before (1e-6), and the distance
@@ -43,6 +44,8 @@ class Heated(NamedTuple):
     """Nodes whose stresses are wanted."""
     slow: bool = False
     """Whether its heat runs ahead of the contact."""
+    ends: Ends = "open"
+    """What lies beyond the first and last row; bodies that are slow or at rest have nothing."""
 
     def coarser(self, weighted: Callable[[Array], Array]) -> "Heated":
         """Return the same on every second node, by ``weighted``."""
@@ -65,11 +68,12 @@ class ThermalStress:
     """
 
     def __init__(self, heated: Heated) -> None:
-        flux, (dy, dx), speed, solid, self.part, _ = heated
+        flux, (dy, dx), speed, solid, self.part, _, ends = heated
         assert solid.diffusivity is not None
         assert solid.conductivity is not None
         assert solid.expansion is not None
         self.shape, self.backwards = flux.shape, speed < 0.0
+        flux = over_period(flux, ends)
         length, reach = flux.shape[1] * dx, solid.diffusivity / abs(speed)
         ahead = 2.0 * PERIOD_DECAY * reach
         beside = 0.0 if flux.shape[0] == 1 else SPREAD * math.sqrt(reach * length)
@@ -77,6 +81,7 @@ class ThermalStress:
             size if size == 1 else fast_size(size + more / step)
             for size, more, step in zip(flux.shape, (beside, ahead), (dy, dx), strict=True)
         )
+        rows = rows if ends == "open" else flux.shape[0]
         rate = PERIOD_DECAY / (columns * dx)
         self.period, self.fall = (rows, columns), np.exp(-rate * dx * np.arange(flux.shape[1]))
         along = flux[:, ::-1] if self.backwards else flux
@@ -146,6 +151,7 @@ class ThermalStress:
         number, nx = spectra.shape[1], self.shape[1]
         waves = fftfreq(number, 1.0 / number)[:, None] / self.period[0]
         shift = np.exp(2j * np.pi * rows.start * waves) / rows.step
-        lines = ifft(spectra * shift, axis=1, overwrite_x=True)[:, : len(rows)]
+        lines = ifft(spectra * shift, axis=1, overwrite_x=True)
+        lines = lines[:, np.arange(len(rows)) % number]
         found = np.asarray(irfft(lines, self.period[1], axis=2)[:, :, :nx]) / self.fall
         return (found[:, :, ::-1] if self.backwards else found)[:, :, self.part[1]]
