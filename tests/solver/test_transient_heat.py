@@ -15,7 +15,9 @@ from tehl.solver import steady
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.relaxation import BROAD
 from tehl.solver.monitor import SILENT
+from tehl.solver.physics.thermal import Coupling
 from tehl.solver.transient.run import Run
+from tehl.solver.transient.snapshot import COLUMNS
 from tests.reference import DOMAIN, heated_contact
 
 OPTIONS = Options(points=65, domain=DOMAIN)
@@ -61,6 +63,30 @@ def test_heat_in_time_does_not_lag_where_the_start_was_damped(monkeypatch):
     # 1e-3 and 1e-4 if each step lags behind
     np.testing.assert_allclose(slow.temperature_rise, quick.temperature_rise, rtol=1e-5)
     np.testing.assert_allclose(slow.film_central, quick.film_central, rtol=1e-6)
+
+
+def test_a_step_whose_temperatures_have_settled_leaves_out_its_last_sweep(monkeypatch):
+    """It takes as long as the cycle, and hardly changes anything."""
+    count, sweep, left, rises = [0], Coupling._sweep, [], []
+
+    def counted(self: Coupling, *given: object) -> float:
+        count[0] += 1
+        return sweep(self, *given)
+
+    monkeypatch.setattr(Coupling, "_sweep", counted)
+    unit = scales(heated_contact(0.5))
+    growing = [(0.0, 1.0), (unit.half_width_x / unit.speed, 1.1)]
+    for tolerance in (1e-3, 1e-6):
+        course = {"load": growing, "tolerance": tolerance, "max_cycles": 40}
+        case = hot(1.0, transient=course)
+        run = Run(case, OPTIONS, case.transient, SILENT)
+        before = count[0]
+        run.advance(SILENT)
+        rows = [dict(zip(COLUMNS, row, strict=True)) for row in run.record.rows]
+        left.append(sum(row["cycles"] for row in rows) - (count[0] - before))
+        rises.append([row["temperature_rise"] for row in rows])
+    assert left[0] >= 0.8 * run.steps
+    np.testing.assert_allclose(rises[0], rises[1], rtol=2e-3)
 
 
 def breathing(slide: float) -> ContactProblem:
