@@ -71,10 +71,11 @@ must not move smooth errors, as lines between held ones do not. Least number of 
 that of long cells, beside which lines are held a little: with it 0.24 to 0.32 is left for a_y/a_x =
 10 to 50, M = 1000 to 4000. The third is the length of cells over their width from which on those
 of a roller are long: as all its lines are alike, an error at the end of its film is one of all."""
-ROLLER_POINT, THIN_FILM, POINT_OF_THIN, ROLLER_LINES = 0.7, 0.006, 0.45, 4
+ROLLER_POINT, THIN_FILM, POINT_OF_THIN, ROLLER_LINES = 0.7, 0.01, 0.45, 4
 """Of rollers, beside whose lines none are held: factor on the points; central film below which that
 is the third one [-]; lines to each side that change with one. An error of the inlet that all lines
-share grows with a factor of 0.8 at M = 150, and with 0.7 at M = 300 (film 0.004). Where lines are
+share grows with a factor of 0.8 at M = 150, with 0.7 at M = 300 (film 0.004), and on the first grid
+of a tilted one at M = 78 (film 0.008, 37 widths), whose first strategy diverged. Where lines are
 held, the load of crowned ones alternates from cycle to cycle. 0.2 to 0.35 of the residual is left
 for a length of 8 to 140 widths, M = 5 to 150, crowned, logarithmic and lundberg profiles."""
 
