@@ -241,6 +241,25 @@ def test_a_shear_law_is_tried_first_where_the_stress_is_the_likely_cause():
         assert tried[0] == first
 
 
+def test_the_law_of_roelands_is_tried_in_place_of_that_of_barus():
+    """With its constants a heated circle at 1.6 GPa converges, by Barus' law it does not."""
+    tables = ball_tables()
+    tables["lubricant"]["viscosity"] = {"law": "barus", "eta_0": 0.14, "alpha": "20 1/GPa"}
+    failed = replace(
+        failure(100.0, points=33).result,
+        problem=ContactProblem.model_validate(tables),
+        options=Options(error=0.5),
+    )
+    tried = []
+
+    def fails(problem: ContactProblem, _options: Options):
+        tried.append(problem.lubricant.viscosity)
+        raise InputError("no memory")
+
+    working_hint(failed, fails, SILENT, math.inf)
+    assert [(one.law, one.alpha) for one in tried] == [("roelands", 2e-8)]
+
+
 @pytest.mark.parametrize("seconds", [0.5, 30.0])
 def test_other_nodes_keep_the_lines_of_a_roller_and_need_a_part_of_the_time(seconds):
     failed = replace(failure(100.0, points=33).result, problem=roller(50.0), options=Options())
