@@ -44,7 +44,7 @@ PASSES = 6  # of the policy iteration, before clipping
 FREE, CAVITATED, FROZEN, WAS_CAVITATED = 0.0, 1.0, 2.0, 3.0  # states of a node
 FAR_WEDGE = 0.7  # part of the wedge of a wave of the pressure of lines, 1, that near nodes lack
 MORE_ACROSS, SHORT_CELL = 1.5, 1.5
-"""Part by which steps of points on rollers are longer where all flows across their lines, and flow
+"""Part by which steps of points are longer where all flows across lines that crowd, and flow
 across over that along from which they are: zebra sweeps are those of Gauss-Seidel there, and errors
 that all lines share are in what they conduct along x. At lundberg ends, on cells a fifth as long as
 wide, cycles leave 0.35 and 0.31 of the residual (M = 50 and 75), without it 0.40 and 0.43. Where
@@ -554,7 +554,7 @@ def _store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span)
         return
     for i in range(span[0], span[1]):
         u = cells[i + EMPTY_MARGIN_NODES, U, lane]
-        if relaxation.apart and not relaxation.kind[j, i]:
+        if relaxation.apart and film.south.shape[0] > 0 and not relaxation.kind[j, i]:
             across = cells[i + EMPTY_MARGIN_NODES, ACROSS, lane] - FAR_WEDGE
             along = 2.0 * cells[i + EMPTY_MARGIN_NODES, EAST, lane]
             more = across - SHORT_CELL * along - relaxation.stiffness[j, i]
