@@ -223,19 +223,21 @@ def _load_line(
     if film.speed.shape[0] > 0:
         _load_curved(film, stencil, relaxation, place, span)
         return
+    ny = film.p.shape[0]
+    rows = row_below(j, ny, stencil.mirror), row_above(j, ny, stencil.mirror)
     for i in range(span[0], span[1]):
-        _load_node(film, stencil, relaxation, (j, i), (i + EMPTY_MARGIN_NODES, lane))
+        _load_node(film, stencil, relaxation, (j, i), (i + EMPTY_MARGIN_NODES, lane), rows)
     if stencil.conserves == STEADILY:
         _load_flux(film, stencil, relaxation, place, span)
 
 
 @helper
 def _load_node(
-    film: Film, stencil: Stencil, relaxation: LineRelaxation, node: Span, place: Span
+    film: Film, stencil: Stencil, relaxation: LineRelaxation, node: Span, place: Span, rows: Span
 ) -> None:
-    """Copy the fields of a node to a place, record and lane."""
-    (j, i), (at, lane), ny = node, place, film.p.shape[0]
-    south, north = row_below(j, ny, stencil.mirror), row_above(j, ny, stencil.mirror)
+    """Copy the fields of a node to a place, record and lane; ``rows``: south and north of it."""
+    (j, i), (at, lane) = node, place
+    south, north = rows
     eps_x, eps_y, systems = film.eps_x, film.eps_y, relaxation.systems
     cells, rest = systems.cells, systems.rest
     half_x, (half_s, half_n) = 0.5 * stencil.cx, sides(film, stencil, j)
@@ -276,7 +278,11 @@ def _load_curved(
     for k in range(span[0], span[1]):
         i, at = nx - 1 - k if back else k, k + EMPTY_MARGIN_NODES
         inside = min(i, nx - 2)  # the east of the last node is not used
-        _load_node(film, stencil, relaxation, (j, inside), (at, lane))
+        rows = (
+            row_below(j, film.p.shape[0], stencil.mirror),
+            row_above(j, film.p.shape[0], stencil.mirror),
+        )
+        _load_node(film, stencil, relaxation, (j, inside), (at, lane), rows)
         if back:
             _load_reversed(film, stencil, relaxation, (j, i), (at, lane))
         drift = abs(film.drift[i])

@@ -34,9 +34,8 @@ def row_below(j: int, ny: int, mirror: int) -> int:
     Where the film wraps, row 0 is the last one too, and the row before that is south of it. A line
     contact has one row of ``ny``, which is its own neighbour on both sides.
     """
-    if j > 0:
-        return j - 1
-    return ny - 2 if mirror >= WRAPPED else min(1, ny - 1)
+    end = ny - 2 if mirror >= WRAPPED else min(1, ny - 1)
+    return j - 1 if j > 0 else end
 
 
 @helper
@@ -45,9 +44,8 @@ def row_above(j: int, ny: int, mirror: int) -> int:
 
     Where the film wraps it is row 1.
     """
-    if j + 1 < ny:
-        return j + 1
-    return 1 if mirror >= WRAPPED else max(ny - 2, 0)
+    end = 1 if mirror >= WRAPPED else max(ny - 2, 0)
+    return j + 1 if j + 1 < ny else end
 
 
 @helper

@@ -28,9 +28,8 @@ def beside(
 
     They are its own where none are left out. ``rows``: their number and ``mirror``.
     """
-    south, north, (ny, mirror) = j, j, rows
-    if step[0] > 1:
-        south, north = row_below(j, ny, mirror), row_above(j, ny, mirror)
+    ny, mirror = rows
+    south, north = (j, j) if step[0] == 1 else (row_below(j, ny, mirror), row_above(j, ny, mirror))
     return south, north, i + 1 - step[1], i - 1 + step[1]
 
 
