@@ -14,7 +14,12 @@ from numpy.polynomial.polynomial import polyder, polyval
 
 from tehl.base.typing import Array
 from tehl.kernels.energy.column import CONDUCTION
-from tehl.kernels.energy.march import LARGEST_FALL, LARGEST_FLUIDITY_GROWTH, LARGEST_KELVIN_STEP
+from tehl.kernels.energy.march import (
+    BACKFLOW_PART,
+    LARGEST_FALL,
+    LARGEST_FLUIDITY_GROWTH,
+    LARGEST_KELVIN_STEP,
+)
 from tehl.kernels.energy.records import ETA_TERMS, GHOSTS, Across, Fields, Laws, Model, Surfaces
 
 
@@ -332,6 +337,8 @@ def flow(model: Model, at: Station) -> Column:
 def follow(model: Model, at: Station, column: Column, new: Array) -> None:
     """Take the new temperatures; laws and stress follow to first order."""
     step = np.clip(new - at.t, -LARGEST_KELVIN_STEP, LARGEST_KELVIN_STEP)
+    if model.terms.over_t == 0.0:
+        step = step * np.where(column.u.min(axis=0) < 0.0, BACKFLOW_PART, 1.0)
     at.t = at.t + step
     fall = np.sum(column.share(model.across) * step, axis=0)
     fall = np.clip(fall, -LARGEST_FALL, LARGEST_FALL)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import gmres
 
+from benchmarks import machines
 from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import Result
 from tehl.api.solvers import solve
@@ -16,6 +17,7 @@ from tehl.estimate.inlet_heating import inlet_factors
 from tehl.io.templates import template_text
 from tehl.operators import surfaces
 from tehl.result.fields import FilmHeat
+from tehl.solver import steady
 from tehl.solver.monitor import SILENT
 from tehl.solver.steady import try_strategies
 from tests.reference import heated_contact
@@ -257,11 +259,21 @@ def test_sweeps_keep_the_temperature_of_oil_that_flows_back_and_sideways():
     attempt, _ = try_strategies(problem, options, monitor=SILENT, rough=False)
     state = attempt.run.coupling.state
     assert state is not None
+    for _ in range(10):  # where oil flows back changes are taken by halves
+        state.sweep(3)
     before = state.temperature.copy()
     for _ in range(10):
         state.sweep(3)
     assert before.max() - 383.0 > 0.4
     assert np.abs(state.temperature - before).max() < 0.1
+
+
+def test_hot_oil_that_flows_back_comes_to_rest_on_fine_grids():
+    """A traction drive, M = 637, L = 17: by whole changes its inlet swings up to 170 K."""
+    found = steady.solve(machines.contact(97, 51)[2], Options())
+    assert found.errors.film() < 0.01
+    rises = [one.temperature_rise for one in found.history if one.points == (641, 321)]
+    assert max(rises) == pytest.approx(92.0, abs=2.0)
 
 
 def test_errors_of_surface_temperatures_that_do_not_matter_are_left(monkeypatch):

@@ -5,7 +5,7 @@ and flow at the new temperatures for the Reynolds equation. `tests.kernels.stati
 in plain numpy.
 """
 
-from tehl.base.typing import Array
+from tehl.base.typing import Array, Records
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.energy.column import carry_sideways, inner_rows, join_ends, solve_block
 from tehl.kernels.energy.flow import (
@@ -26,6 +26,11 @@ LARGEST_KELVIN_STEP = 40.0  # [K] per solution of a column
 LARGEST_FALL = 0.5  # of the stress with it, relative
 LARGEST_FLUIDITY_GROWTH = 6.0  # of the logarithm of the fluidity with it
 PRESSURISED = 0.02  # pressure above which a change of temperature counts
+BACKFLOW_PART = 0.5
+"""Part of a change of temperature that is taken where oil flows back. It comes from hotter places,
+and where it is warmer more of it does: on fine grids whole changes grow from sweep to sweep, by up
+to 170 K where 92 K are right (traction drives, M = 60 to 1,000, L = 17 to 21). Time steps, which
+have few sweeps, take all."""
 
 
 @helper
@@ -76,6 +81,15 @@ def _fill_ghosts(terms: Terms, temperature: Array, i: int) -> None:
 
 
 @helper
+def _slowest(layers: Records) -> Lanes:
+    """Return the least velocity along x across the film."""
+    slowest = layers[0].u
+    for k in range(1, layers.shape[0]):
+        slowest = lesser(slowest, layers[k].u)
+    return slowest
+
+
+@helper
 def _flow_of_block(model: Model, fields: Fields, work: Work, place: Place, steps: int) -> None:
     """Evaluate laws, flow and mass fluxes of a block at its last temperature."""
     line, layers = work.lines[place.block], work.layers[place.block]
@@ -85,10 +99,7 @@ def _flow_of_block(model: Model, fields: Fields, work: Work, place: Place, steps
     if not model.terms.heat:
         return
     mass_fluxes(model.across, work, place)
-    slowest = layers[0].u
-    for k in range(1, layers.shape[0]):
-        slowest = lesser(slowest, layers[k].u)
-    if largest(-slowest) > 0.0:
+    if largest(-_slowest(layers)) > 0.0:
         work.back[0] = max(work.back[0], place.i + 1.0)
 
 
@@ -107,21 +118,26 @@ def _take_temperatures(
 ) -> tuple[Lanes, Lanes]:
     """Take the new temperatures; return their mean change and the relative fall of the stress.
 
-    No temperature changes by more than `LARGEST_KELVIN_STEP`. ``new_t`` becomes the change. Changes
-    at pressures below `PRESSURISED` do not count as the largest one.
+    No temperature changes by more than `LARGEST_KELVIN_STEP`, and in a steady film where oil flows
+    back by `BACKFLOW_PART` of it. ``new_t`` becomes the change. Changes at pressures below
+    `PRESSURISED` do not count as the largest one.
     """
     line, layers, weights = work.lines[place.block], work.layers[place.block], model.across.weights
     rows = lanes(BLOCK * place.block + GHOSTS)
     mean, most, fall = 0.0 * line.p, 0.0 * line.p, 0.0 * line.p
+    part = 1.0 + mean
+    if model.terms.over_t == 0.0:
+        part = where(_slowest(layers) < 0.0, BACKFLOW_PART * part, part)
     for k in range(layers.shape[0]):
         here = layers[k]
-        step = lesser(greater(here.new_t - here.t, -LARGEST_KELVIN_STEP), LARGEST_KELVIN_STEP)
+        whole = lesser(greater(here.new_t - here.t, -LARGEST_KELVIN_STEP), LARGEST_KELVIN_STEP)
+        step = part * whole
         here.new_t = step
         here.t = here.t + step
         fields.temperature[place.i + GHOSTS, k, rows] = here.t
         mean = mean + weights[k] * step
         fall = fall + here.share * step
-        most = greater(most, abs(step))
+        most = greater(most, abs(whole))
     counts = where(line.p - PRESSURISED > 0.0, most, 0.0)
     work.change[lanes(0)] = greater(work.change[lanes(0)], counts)
     return mean, lesser(greater(fall, -LARGEST_FALL), LARGEST_FALL)
