@@ -15,6 +15,7 @@ from numpy.polynomial.polynomial import polyder, polyval
 from tehl.base.typing import Array
 from tehl.kernels.energy.column import CONDUCTION
 from tehl.kernels.energy.march import (
+    BACKFLOW_KELVIN,
     BACKFLOW_PART,
     LARGEST_FALL,
     LARGEST_FLUIDITY_GROWTH,
@@ -338,7 +339,8 @@ def follow(model: Model, at: Station, column: Column, new: Array) -> None:
     """Take the new temperatures; laws and stress follow to first order."""
     step = np.clip(new - at.t, -LARGEST_KELVIN_STEP, LARGEST_KELVIN_STEP)
     if model.terms.over_t == 0.0:
-        step = step * np.where(column.u.min(axis=0) < 0.0, BACKFLOW_PART, 1.0)
+        swings = (column.u.min(axis=0) < 0.0) & (np.abs(step).max(axis=0) > BACKFLOW_KELVIN)
+        step = step * np.where(swings, BACKFLOW_PART, 1.0)
     at.t = at.t + step
     fall = np.sum(column.share(model.across) * step, axis=0)
     fall = np.clip(fall, -LARGEST_FALL, LARGEST_FALL)

@@ -259,8 +259,6 @@ def test_sweeps_keep_the_temperature_of_oil_that_flows_back_and_sideways():
     attempt, _ = try_strategies(problem, options, monitor=SILENT, rough=False)
     state = attempt.run.coupling.state
     assert state is not None
-    for _ in range(10):  # where oil flows back changes are taken by halves
-        state.sweep(3)
     before = state.temperature.copy()
     for _ in range(10):
         state.sweep(3)

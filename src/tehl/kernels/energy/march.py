@@ -26,11 +26,11 @@ LARGEST_KELVIN_STEP = 40.0  # [K] per solution of a column
 LARGEST_FALL = 0.5  # of the stress with it, relative
 LARGEST_FLUIDITY_GROWTH = 6.0  # of the logarithm of the fluidity with it
 PRESSURISED = 0.02  # pressure above which a change of temperature counts
-BACKFLOW_PART = 0.5
-"""Part of a change of temperature that is taken where oil flows back. It comes from hotter places,
-and where it is warmer more of it does: on fine grids whole changes grow from sweep to sweep, by up
-to 170 K where 92 K are right (traction drives, M = 60 to 1,000, L = 17 to 21). Time steps, which
-have few sweeps, take all."""
+BACKFLOW_PART, BACKFLOW_KELVIN = 0.5, 0.5
+"""Part of a change of temperature that is taken where oil flows back, and the change [K] from which
+on: such oil comes from hotter places, and where it is warmer more of it does. On fine grids whole
+changes grow from sweep to sweep, up to 170 K where 92 K are right (traction drives, M = 60 to
+1,000, L = 17 to 21). Time steps, which have few sweeps, take all."""
 
 
 @helper
@@ -118,26 +118,30 @@ def _take_temperatures(
 ) -> tuple[Lanes, Lanes]:
     """Take the new temperatures; return their mean change and the relative fall of the stress.
 
-    No temperature changes by more than `LARGEST_KELVIN_STEP`, and in a steady film where oil flows
-    back by `BACKFLOW_PART` of it. ``new_t`` becomes the change. Changes at pressures below
-    `PRESSURISED` do not count as the largest one.
+    No temperature changes by more than `LARGEST_KELVIN_STEP`, and where oil of a steady film flows
+    back large changes are taken by `BACKFLOW_PART`. ``new_t`` becomes the change. Changes at
+    pressures below `PRESSURISED` do not count as the largest one.
     """
     line, layers, weights = work.lines[place.block], work.layers[place.block], model.across.weights
     rows = lanes(BLOCK * place.block + GHOSTS)
     mean, most, fall = 0.0 * line.p, 0.0 * line.p, 0.0 * line.p
-    part = 1.0 + mean
-    if model.terms.over_t == 0.0:
-        part = where(_slowest(layers) < 0.0, BACKFLOW_PART * part, part)
     for k in range(layers.shape[0]):
         here = layers[k]
-        whole = lesser(greater(here.new_t - here.t, -LARGEST_KELVIN_STEP), LARGEST_KELVIN_STEP)
-        step = part * whole
+        step = lesser(greater(here.new_t - here.t, -LARGEST_KELVIN_STEP), LARGEST_KELVIN_STEP)
+        here.new_t = step
+        most = greater(most, abs(step))
+    part = 1.0 + mean
+    if model.terms.over_t == 0.0:
+        swings = (_slowest(layers) < 0.0) & (most > BACKFLOW_KELVIN)
+        part = where(swings, BACKFLOW_PART * part, part)
+    for k in range(layers.shape[0]):
+        here = layers[k]
+        step = part * here.new_t
         here.new_t = step
         here.t = here.t + step
         fields.temperature[place.i + GHOSTS, k, rows] = here.t
         mean = mean + weights[k] * step
         fall = fall + here.share * step
-        most = greater(most, abs(whole))
     counts = where(line.p - PRESSURISED > 0.0, most, 0.0)
     work.change[lanes(0)] = greater(work.change[lanes(0)], counts)
     return mean, lesser(greater(fall, -LARGEST_FALL), LARGEST_FALL)
