@@ -14,6 +14,7 @@ ends or repeating itself.
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Literal
 
 from tehl.base.typing import Array, np
 from tehl.contact.bodies import Radii
@@ -21,6 +22,9 @@ from tehl.contact.hertz import HertzContact
 from tehl.contact.options import ROLLER_ENDS
 from tehl.contact.profile import Profile, Tabulated
 from tehl.contact.shape import LINE, Line
+
+Ends = Literal["open", "mirrored", "periodic"]
+"""What lies beyond both ends of a roller: nothing, its image at each, or itself again."""
 
 LARGEST_TILT = 0.05
 """Largest tilt of a roller [rad]: real ones have 0.0001 to 0.005."""

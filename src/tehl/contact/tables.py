@@ -26,7 +26,7 @@ from tehl.contact.bodies import Radii
 from tehl.contact.cooling import Cooling
 from tehl.contact.materials import NamedSolid
 from tehl.contact.profile import Profile, Tabulated
-from tehl.contact.roller import LARGEST_TILT
+from tehl.contact.roller import LARGEST_TILT, Ends
 from tehl.contact.velocities import Velocity, with_motion
 from tehl.roughness import AnyRoughness, Smooth
 from tehl.roughness.model import with_rms
@@ -152,7 +152,7 @@ class ContactShape(_WithRadii):
     theirs."""
     length: Length | None = None
     """Of a roller [m]: that on which it touches its raceway, without chamfers."""
-    ends: Literal["open", "mirrored", "periodic"] = "open"
+    ends: Ends = "open"
     """Of a roller: those of its length; mirrors, behind which it goes on, film and roughness too;
     or periodic, where it goes on with the film and roughness of the other end: a piece of a gear
     tooth or of a long roller."""

@@ -81,13 +81,13 @@ class Climb:
         best: Attempt | None = None
         solved: tuple[Solved, ...] = ()
         steps = tuple(self._steps(plan, rungs))
-        first = plan
+        planned = plan
         for number, (grid, strategy) in enumerate(steps):
             if number:
                 self.monitor.message(f"falling back to {strategy.description}")
             # else a strategy goes on from the grid that the error of the one before led to
-            if grid is not first:
-                first, plan, solved = grid, grid, ()
+            if grid is not planned:
+                planned, plan, solved = grid, grid, ()
             # Newton's method is expensive: the cycles before it are tried to the end
             force = all(one.newton for _, one in steps[number + 1 :])
             attempt, known = self._attempt(plan, strategy, solved, force=force), solved

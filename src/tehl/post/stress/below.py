@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.contact.roller import Ends
 from tehl.contact.stress import Stress
 from tehl.post.stress.heated import (
     ThermalBody,
@@ -17,7 +18,7 @@ from tehl.post.stress.heated import (
 from tehl.post.stress.influence import COMPONENTS, HalfSpace, Space, Spectra, Steps
 from tehl.post.stress.loads import SurfaceLoads, left_out, loads_on, on_even_lines, parts_of_cells
 from tehl.post.stress.measures import Worst, largest_shear, worst
-from tehl.post.stress.repeating import Ends, RepeatingHalfSpace
+from tehl.post.stress.repeating import RepeatingHalfSpace
 from tehl.post.stress.thermal import Heated
 from tehl.post.stress.window import Window, cut, depths_of, halved, middle_row, wake, window_of
 from tehl.result.fields import BodyStress

@@ -7,17 +7,16 @@ x of some lengths :math:`1/\beta` more than the loads take is enough (docs/theor
 """
 
 import math
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import fftfreq, irfft2, next_fast_len, rfft2, rfftfreq
 
 from tehl.base.typing import Array
+from tehl.contact.roller import Ends
 from tehl.post.stress.influence import HalfSpace, Influence, Spectra, Steps
 
-Ends = Literal["open", "mirrored", "periodic"]
-"""What lies beyond the first and last row of loads: nothing, their images, or they again."""
 GAP = 16.0
 """Distance of the next period along x, over that in which the longest wave decays by a factor of e:
 e^-16 of it is then left."""

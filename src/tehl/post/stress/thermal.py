@@ -17,9 +17,10 @@ from scipy.fft import fftfreq, ifft, irfft, rfft2, rfftfreq
 
 from tehl.base.typing import Array
 from tehl.contact.materials import Solid
+from tehl.contact.roller import Ends
 from tehl.post.stress.influence import fast_size
 from tehl.post.stress.loads import SurfaceLoads
-from tehl.post.stress.repeating import Ends, over_period
+from tehl.post.stress.repeating import over_period
 
 PERIOD_DECAY, SPREAD = 14.0, 7.5
 """Natural logarithm of what is left of the wake of the period before (1e-6), and the distance

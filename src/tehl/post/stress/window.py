@@ -6,9 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.contact.roller import Ends
 from tehl.contact.stress import Stress
 from tehl.post.stress.loads import SurfaceLoads
-from tehl.post.stress.repeating import Ends
 from tehl.result.solution import Solution
 
 LEAST_WINDOW = 1.25
