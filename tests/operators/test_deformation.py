@@ -11,6 +11,7 @@ from tehl.base.typing import Array
 from tehl.contact.options import Domain
 from tehl.contact.roller import Roller
 from tehl.estimate.grid import Grid
+from tehl.operators.crowded import CrowdedDeformation
 from tehl.operators.deformation import (
     DirectDeformation,
     FftDeformation,
@@ -220,6 +221,25 @@ def test_lines_that_crowd_at_the_ends_of_a_roller_are_bent_as_even_ones(mirror):
     for column in (0, 16):
         there = np.interp(crowded.y, even.y, expected[:, column])
         np.testing.assert_allclose(found[:, column], there, rtol=3e-3)
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+def test_near_lines_alone_are_summed_at_most_wave_numbers(mirror):
+    edges = (0.95, 0.95) if mirror else (0.9, 0.97)
+    ends, numbers = Domain.model_construct(x=(-3.0, 1.5), y=(-1.0, 1.0)), contact_groups(25.0)
+    grid = Grid(nx=65, ny=129, domain=ends, mirror=mirror, crowding=3.0, edges=edges)
+    pressure, found = np.random.default_rng(1).random(grid.shape), np.empty(grid.shape)
+    pressure[:, [0, -1]] = 0.0
+    deformation = CrowdedDeformation(grid, numbers)
+    deformation.deflect(pressure, found)
+    lines, i = influence_of(grid, numbers).between(grid), np.arange(grid.nx)
+    offsets = np.abs(i[:, None] - i)
+    expected = [
+        sum(line[offsets] @ p for line, p in zip(to, pressure, strict=True)) for to in lines
+    ]
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+    kept = sum(block.influences.size for block in deformation.blocks)
+    assert kept < 0.8 * grid.nx * grid.shape[0] ** 2
 
 
 def test_a_film_that_wraps_is_bent_by_its_neighbours_beyond_both_ends():

@@ -19,8 +19,9 @@ takes up to 1.4 times as much."""
 USABLE_MEMORY_PART, USUAL_MEMORY = 0.5, 1.2e9
 """Part of the free memory that a solve takes unasked, and most [byte]: so the process stays below
 1.5 GB."""
-BYTES_PER_PAIR = 16
-"""Added where lines crowd at ends, per node along x and pair of lines: half by the finest grid."""
+BYTES_CROWDED = 1000
+"""Added per stored node where lines crowd at ends: 230 to 510 by near lines of the finest grid, of
+1025 x 513 nodes, and as much by the coarser ones."""
 USUAL_LAYERS = 9
 NEGLIGIBLE_MEMORY = 16e6
 """Need that any machine running Python can satisfy [byte]: available memory is not checked."""
@@ -41,9 +42,9 @@ def needed_memory(options: Options, problem: ContactProblem | None = None) -> fl
     """
     nodes_y, nodes_x = options.shape
     found = float(_bytes_per_node(problem) * nodes_y * nodes_x)
-    if problem is not None and crowds_at_ends(problem):  # each line bends each other one
+    if problem is not None and crowds_at_ends(problem):
         stored = (nodes_y + 1) // 2 if problem.is_even_in_y else nodes_y
-        found += BYTES_PER_PAIR * nodes_x * stored**2
+        found += BYTES_CROWDED * nodes_x * stored
     return found
 
 

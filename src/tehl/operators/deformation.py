@@ -15,7 +15,8 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 from tehl.kernels.lanes import LANES
 from tehl.kernels.summation import sum_across
-from tehl.operators.influence import influence_of, matrix_of, reciprocal
+from tehl.operators.crowded import CrowdedDeformation
+from tehl.operators.influence import influence_of, matrix_of
 from tehl.operators.multilevel import MultilevelDeformation
 
 LINES_UP_TO = {True: 200, False: 160}
@@ -26,9 +27,6 @@ ASPECTS = (0.12, 32.0)
 """Ratios of the cell sides, across over along, within which the multilevel sum of a Hertz pressure
 with a spike errs by no more than twice that on square cells, at a quarter of the cost of the FFT
 (257 x 129 to 1025 x 513 nodes)."""
-
-AT_ONCE = 8
-"""Wave numbers of lines that crowd whose influences are made reciprocal together, in the cache."""
 
 
 class Deformation(Protocol):
@@ -144,27 +142,6 @@ class LineDeformation:
         sum_across(self.transform, self.kernel, self.scratch, self.product, self.mirror)
         np.fft.irfft(self.product, self.period, out=self.convolved)
         out[:] = self.convolved[:, : pressure.shape[1]]
-
-
-class CrowdedDeformation:
-    """Exact convolution by FFT along x and direct sum across lines that crowd at ends."""
-
-    def __init__(self, grid: Grid, groups: Groups) -> None:
-        self.period = 2 * (grid.nx - 1)
-        influence, rows = influence_of(grid, groups), grid.shape[0]
-        self.kernel = np.empty((grid.nx, rows, rows))
-        for row in range(rows):  # even about both ends of its period
-            self.kernel[:, row] = dct(influence.on_line(grid, row), 1).T
-        for first in range(0, grid.nx, AT_ONCE):
-            part = self.kernel[first : first + AT_ONCE]
-            part[:] = reciprocal(part, grid)
-
-    def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``."""
-        lines = np.ascontiguousarray(np.fft.rfft(pressure, self.period).T)
-        parts = lines.view(float).reshape(*lines.shape, 2)  # real and imaginary
-        product = np.ascontiguousarray(self.kernel @ parts).view(complex)[:, :, 0]
-        out[:] = np.fft.irfft(product.T, self.period)[:, : pressure.shape[1]]
 
 
 class MirroredDeformation:
