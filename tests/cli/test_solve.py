@@ -254,8 +254,8 @@ def test_a_grid_beyond_the_memory_is_rejected(folder, solver, run, monkeypatch):
     monkeypatch.setattr("tehl.estimate.memory.available_memory", lambda: 1e9)
     done = run("solve", "ball.toml", "--set", "numerics.points=16385")
     assert done.code == 2
-    assert "16385 x 16385: needs about 48 GB" in done.err
-    assert "take 2305 or fewer" in done.err
+    assert "16385 x 16385: needs about 59 GB" in done.err
+    assert "take 2049 or fewer" in done.err
     assert solver.calls == []
 
 

@@ -32,9 +32,9 @@ def test_a_grid_that_fits_or_may_fit_is_accepted(monkeypatch, available):
 
 def test_a_grid_that_does_not_fit_is_rejected_with_one_that_does(monkeypatch):
     monkeypatch.setattr("tehl.estimate.memory.available_memory", lambda: 2e9)
-    with pytest.raises(InputError, match=r"points = 16385 x 16385: .* 48 GB .* take 3329 or fewer"):
+    with pytest.raises(InputError, match=r"points = 16385 x 16385: .* 59 GB .* take 2945 or fewer"):
         check_memory(Options(points=16385))
-    check_memory(Options(points=3329))
+    check_memory(Options(points=2945))
 
 
 def test_no_grid_is_proposed_if_none_fits(monkeypatch):

@@ -12,6 +12,8 @@ from tehl.contact.options import Options
 from tehl.result.fields import Fields
 from tehl.solver.judging.extrapolation import Outputs, extrapolated
 from tehl.solver.judging.richardson import extrapolated_field
+from tehl.solver.monitor import SILENT
+from tehl.solver.steady import try_strategies
 from tests.reference import heated_contact, moes_contact
 
 
@@ -94,3 +96,18 @@ def test_error_bars_of_certified_values_need_no_extrapolated_grids():
     bar = found.uncertainty["film_central"]
     reach = bar.uncertainty + known.errors.central * bar.value
     assert abs(bar.value - known.film_scaled.central) < reach
+
+
+def test_an_attempt_at_rest_keeps_its_result_and_frees_its_grids():
+    """It waits so while another grid is tried."""
+    options = Options(points=257, extrapolate=True, wedge_order=2)
+    attempt, result = try_strategies(heated_contact(0.5), options, monitor=SILENT, rough=True)
+    finest, resting = attempt.run.finest, attempt.at_rest()
+    assert resting.run.levels == [finest]
+    assert resting.run.coupling.state is None
+    kept, errors = resting.outputs(), resting.run.errors()
+    assert errors == result.errors
+    assert errors.extrapolated
+    for one in ("pressure", "film"):
+        assert getattr(kept.fields, one).tolist() == getattr(result.scaled, one).tolist()
+    assert kept.extras.heat.temperature.tolist() == result.heat.temperature.tolist()

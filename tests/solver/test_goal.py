@@ -16,7 +16,7 @@ from tehl.contact.options import Domain, Options
 from tehl.contact.supply import Supply
 from tehl.estimate.domain import domain_of
 from tehl.estimate.grid import Grid
-from tehl.estimate.memory import needed_memory
+from tehl.estimate.memory import RESTING_PART, needed_memory
 from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
@@ -375,7 +375,7 @@ def test_another_grid_fits_beside_the_one_that_is_kept() -> None:
     scaled, options = ScaledProblem.of(problem), settled(problem, Options())
     level = with_minimum_at(0.1, finest_grid(scaled, options.on_points(129, 129)))
     both = needed_memory(options.on_points(161, 161), problem)
-    both += needed_memory(options.on_points(129, 129), problem)
+    both += RESTING_PART * needed_memory(options.on_points(129, 129), problem)
     for part, nodes in ((1.01, (161, 161)), (0.99, None)):
         limited = options.model_copy(update={"max_memory": int(part * both)})
         assert Goal(scaled, limited).other_nodes(level, errors(0.012, 0.012)) == nodes

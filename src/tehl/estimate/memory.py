@@ -10,12 +10,15 @@ from tehl.contact.options import Options, coarsenable
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.settled import crowds_at_ends
 
-BYTES_PER_NODE = 180
+BYTES_PER_NODE = 220
 """Measured peak memory of an isothermal Newtonian solve per node of the finest full grid."""
-BYTES_COUPLED, BYTES_HEATED, BYTES_PER_LAYER = 270, 300, 10
+BYTES_COUPLED, BYTES_HEATED, BYTES_PER_LAYER = 270, 110, 10
 """Added by heat or shear thinning, and by heat: per node, and per node and layer across the film.
-Slender contacts on 1025 x 513 nodes took 550 and 740, on 1537 x 769 nodes 460; a second strategy
-takes up to 1.4 times as much."""
+Thinning contacts on 769 x 1537 nodes took 570 and 580, on 769 x 769 nodes 600, heated ones on
+513 x 1025 and 641 x 641 nodes 660 and 680."""
+RESTING_PART = 0.55
+"""Part of its memory that a grid keeps while another is tried: of two heated ones 0.28 and 0.33, of
+an isothermal one 0.55."""
 USABLE_MEMORY_PART, USUAL_MEMORY = 0.5, 1.2e9
 """Part of the free memory that a solve takes unasked, and most [byte]: so the process stays below
 1.5 GB."""

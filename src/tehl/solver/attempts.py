@@ -18,6 +18,7 @@ from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.judging.convergence import TimeIsOverError
 from tehl.solver.judging.diagnosis import diverged, time_over
+from tehl.solver.judging.extrapolation import Outputs, unfolded
 from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.remedy import Reached
 from tehl.solver.judging.verdict import touching, verdict
@@ -44,6 +45,27 @@ class Attempt:
     reached: bool
     reached_before: Reached | None = None
     """The best film on coarser grids of all strategies, between smooth surfaces."""
+    kept: Outputs | None = None
+    """Fields of the result of a run that is at rest, on the rows that its grid stores."""
+
+    def at_rest(self) -> "Attempt":
+        """Return the attempt with the fields of its result alone, its coarser grids free.
+
+        Unless motion in time, or small motions, begin from its grids.
+        """
+        problem = self.run.hierarchy.scaled.problem
+        if self.kept is not None or problem.transient is not None or problem.dynamics is not None:
+            return self
+        kept = self._outputs()
+        self.run.rest()
+        return replace(self, kept=kept)
+
+    def outputs(self) -> Outputs:
+        """Return the fields of the result, on the full domain."""
+        return unfolded(self._outputs(), self.run.finest.grid)
+
+    def _outputs(self) -> Outputs:
+        return self.kept or self.run.outputs(valid=self.status.kind != "diverged")
 
     @property
     def is_final(self) -> bool:
@@ -95,7 +117,8 @@ class Climb:
             while attempt.run.wanted is not None and not self.goal.is_over:
                 plan = plan.on_points(*attempt.run.wanted)
                 self.monitor.message(f"another grid: {grid_size(plan.shape[::-1])}")
-                del attempt  # frees its grids, unless it is the best one
+                del attempt  # frees its grids, and those of the best one are not kept either
+                best = best.at_rest()
                 attempt = self._attempt(plan, strategy, force=force)
                 best = _better(best, attempt)
             solved = attempt.run.solved

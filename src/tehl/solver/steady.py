@@ -37,7 +37,6 @@ from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy, ladder
 from tehl.solver.cycle.level import Level
-from tehl.solver.judging.extrapolation import Outputs, extrapolated, outputs_of
 from tehl.solver.judging.film_summary import central_value, film_summary
 from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.outputs import oil_balance
@@ -271,7 +270,7 @@ def _result(
     """Assemble the result of an attempt on the full domain."""
     run = attempt.run
     level, grid, scaled = run.finest, run.finest.grid, run.hierarchy.scaled
-    found = _outputs(attempt)
+    found = attempt.outputs()
     return Solution(
         problem=scaled.problem,
         options=options,
@@ -294,17 +293,6 @@ def _result(
             (grid.dx * scaled.scales.half_width_x, grid.dy * units_of(grid, scaled.scales)[1]),
         ),
     )
-
-
-def _outputs(attempt: Attempt) -> Outputs:
-    """Return the fields of an attempt, extrapolated if its grids show the order."""
-    run, scaled = attempt.run, attempt.run.hierarchy.scaled
-    valid, errors = attempt.status.kind != "diverged", run.errors()
-    found = outputs_of(run.finest, scaled, run.coupling.state, valid=valid)
-    coarser = run.traces[-2].outputs if len(run.traces) > 1 else None
-    if not (valid and errors is not None and errors.extrapolated and coarser is not None):
-        return found
-    return extrapolated(found, coarser)
 
 
 def provenance() -> Provenance:

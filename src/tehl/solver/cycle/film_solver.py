@@ -30,6 +30,7 @@ from tehl.solver.judging.convergence import (
     converged,
     film_converged,
 )
+from tehl.solver.judging.extrapolation import Outputs, extrapolated, outputs_of
 from tehl.solver.judging.film_errors import estimated_errors
 from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.measures import is_resolved, nodal_film
@@ -202,6 +203,34 @@ class FilmSolver(GridIteration):
         self.coupling.take(self.levels, last.heat)
         self.finest.update()
         return self.errors() is not None
+
+    def outputs(self, *, valid: bool) -> Outputs:
+        """Return the fields of the last grid, extrapolated if others show the order.
+
+        On the rows that it stores.
+
+        Parameters
+        ----------
+        valid : bool
+            Whether the film is one that has stresses and temperatures.
+        """
+        found, coarser, errors = self.traces[-1].outputs, None, self.errors()
+        if not valid or found is None:
+            found = outputs_of(self.finest, self.hierarchy.scaled, self.coupling.state, valid=valid)
+        if len(self.traces) > 1:
+            coarser = self.traces[-2].outputs
+        if valid and errors is not None and errors.extrapolated and coarser is not None:
+            return extrapolated(found, coarser)
+        return found
+
+    def rest(self) -> None:
+        """Free what cycles need beside the finest grid, while other grids are tried."""
+        self.at_rest = self.errors()
+        self.hierarchy.free_coarser()
+        self.coupling.reset(())
+        self.solved = ()
+        for trace in self.traces:
+            trace.outputs = None
 
     def _has_converged(self) -> bool:
         """Return whether the last grid converged, and its oil flux is constant."""

@@ -127,6 +127,12 @@ class Hierarchy:
         """Append a level of half the mesh width."""
         self.levels.append(Level(self._equations(self.finest.grid.finer()), relaxation))
 
+    def free_coarser(self) -> None:
+        """Keep the finest level alone."""
+        del self.levels[:-1]
+        self.between.clear()
+        self.chains.clear()
+
     @property
     def finest(self) -> Level:
         """The level of the result."""

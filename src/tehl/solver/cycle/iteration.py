@@ -80,6 +80,7 @@ class GridIteration:
         self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
         self.traces: list[GridTrace] = []  # of each grid, coarsest first
         self.from_hertz = False  # the present grid started from the Hertz pressure
+        self.at_rest: ErrorEstimate | None = None  # errors of a run whose coarser grids are free
         self.balance = Balance(
             self.options,
             exactly=strategy.newton,
@@ -189,6 +190,8 @@ class GridIteration:
 
     def errors(self) -> ErrorEstimate | None:
         """Return estimated errors of the film on the last grid; None before its first cycle."""
+        if self.at_rest is not None:
+            return self.at_rest
         level = self.levels[len(self.traces) - 1]
         found = estimated_errors(level, self.traces, self.roughness, self.hierarchy)
         if found is None or self.balance.oil_error <= LARGEST_OIL_ERROR:

@@ -1,10 +1,11 @@
 """Richardson extrapolation of fields on two grids: f + (f_h - f_2h) / 3 of second-order values."""
 
 from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
+from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState
 from tehl.result.fields import Fields, HeatBalance
@@ -23,10 +24,13 @@ from tehl.solver.judging.richardson import WEIGHT, extrapolated_field
 
 AnyFields = TypeVar("AnyFields")
 
+ODD = ("across",)
+"""Fields with another sign beyond a line of symmetry along x."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Outputs:
-    """Fields of a film on one grid, on its full domain."""
+    """Fields of a film on one grid, on the rows that it stores or, `unfolded`, on all."""
 
     fields: Fields
     extras: Extras = Extras()  # noqa: RUF009 (frozen)
@@ -35,7 +39,7 @@ class Outputs:
 def outputs_of(
     level: Level, scaled: ScaledProblem, state: FilmState | None, *, valid: bool = True
 ) -> Outputs:
-    """Return the fields of a level.
+    """Return the fields of a level, on the rows that its grid stores.
 
     Parameters
     ----------
@@ -57,8 +61,8 @@ def outputs_of(
         fields=Fields(
             x=full.x,
             y=full.y,
-            pressure=grid.unfold(np.maximum(level.film.p, 0.0)),
-            film=grid.unfold(level.film.h),
+            pressure=np.maximum(level.film.p, 0.0),
+            film=level.film.h.copy(),
         ),
         extras=Extras(
             shear=shear,
@@ -98,3 +102,27 @@ def _combined(fine: AnyFields, coarse: AnyFields) -> AnyFields:
         elif isinstance(fine, HeatBalance):
             changes[one.name] = value + WEIGHT * (value - before)
     return replace(fine, **changes)  # type: ignore[type-var]
+
+
+def unfolded(found: AnyFields, grid: Grid) -> AnyFields:
+    """Return fields, all arrays with the nodes of a grid on their last axes, on the full domain.
+
+    Parameters
+    ----------
+    found : Outputs or dataclass
+        On the rows that a grid stores.
+    grid : Grid
+        That grid.
+    """
+    if not grid.mirror:
+        return found
+    changes: dict[str, Any] = {}
+    for one in fields(found):  # type: ignore[arg-type]
+        value = getattr(found, one.name)
+        if is_dataclass(value):
+            changes[one.name] = unfolded(value, grid)
+        elif isinstance(value, np.ndarray) and value.ndim > 1:
+            image = value[..., :0:-1, :]
+            image = -image if one.name in ODD else image
+            changes[one.name] = np.concatenate([image, value], axis=-2)
+    return replace(found, **changes)  # type: ignore[type-var]

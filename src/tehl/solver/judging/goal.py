@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from tehl.base.units import percentage
 from tehl.base.wording import grid_size
 from tehl.contact.options import MOST_NODES_PER_AXIS, Domain, Options, can_be_halved
-from tehl.estimate.memory import USUAL_MEMORY, memory_limit, needed_memory
+from tehl.estimate.memory import RESTING_PART, USUAL_MEMORY, memory_limit, needed_memory
 from tehl.estimate.nodes import FAMILIES, FAVOURED, most_lines, side_bar
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.spin import spin_error
@@ -267,8 +267,8 @@ class Goal:
         return fits[-1] if fits else None
 
     def _left(self, level: Level) -> float:
-        """Return the memory beside the grids up to a level, kept until others end [byte]."""
-        return memory_limit(self.options) - self._needed(level.grid.points)
+        """Return the memory beside what the grid of a level keeps until others end [byte]."""
+        return memory_limit(self.options) - RESTING_PART * self._needed(level.grid.points)
 
     def _needed(self, points: tuple[int, int]) -> float:
         """Return the memory that a grid of nodes (nx, ny) needs [byte]."""

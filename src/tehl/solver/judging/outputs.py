@@ -1,4 +1,4 @@
-"""Shear stress, temperature and heat balance of a finished run, in SI and on the full domain.
+"""Shear stress, temperature and heat balance of a finished run, in SI and on the stored domain.
 
 Equations in docs/theory/thermal.md; the isothermal Newtonian stress is eta du/dz of Couette and
 Poiseuille flow.
@@ -41,11 +41,11 @@ def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
     rolling = 6.0 / groups.lambda_bar * level.film.h * slope_x
     unit = stress_unit(scaled.scales)
     return FilmShear(
-        surface_1=grid.unfold(unit * (sliding - rolling)),
-        mid_film=grid.unfold(unit * sliding),
-        surface_2=grid.unfold(unit * (sliding + rolling)),
-        across=grid.unfold(unit * across),
-        thinning=np.ones((grid.ny, grid.nx)),
+        surface_1=unit * (sliding - rolling),
+        mid_film=unit * sliding,
+        surface_2=unit * (sliding + rolling),
+        across=unit * across,
+        thinning=np.ones(grid.shape),
     )
 
 
@@ -78,17 +78,17 @@ def newtonian_sliding(level: Level, scaled: ScaledProblem) -> tuple[Array, Array
 
 def film_shear(state: FilmState) -> FilmShear:
     """Return the shear stress of a heated or shear-thinning film."""
-    grid, sliding = state.grid, state.view("tau_x")
+    sliding = state.view("tau_x")
     unit = stress_unit(state.film.scaled.scales)
     # the force on the gap, whatever asperities leave of its flow
-    slope_x, _ = pressure_slopes(grid, state.film.scaled.groups, state.view("p").T)
+    slope_x, _ = pressure_slopes(state.grid, state.film.scaled.groups, state.view("p").T)
     rolling = 0.5 * state.model.terms.poiseuille * state.view("h") * slope_x.T
     return FilmShear(
-        surface_1=_unfold(grid, unit * (sliding - rolling)),
-        mid_film=_unfold(grid, unit * sliding),
-        surface_2=_unfold(grid, unit * (sliding + rolling)),
-        across=_unfold(grid, unit * state.view("tau_y"), odd=True),
-        thinning=_unfold(grid, state.view("effective")),
+        surface_1=_rows(unit * (sliding - rolling)),
+        mid_film=_rows(unit * sliding),
+        surface_2=_rows(unit * (sliding + rolling)),
+        across=_rows(unit * state.view("tau_y")),
+        thinning=_rows(state.view("effective")),
     )
 
 
@@ -96,16 +96,15 @@ def film_heat(state: FilmState) -> FilmHeat | None:
     """Return the temperatures of a heated film, None for an isothermal one."""
     if not state.model.terms.heat:
         return None
-    grid, temperature = state.grid, state.temperature
-    layers = [_unfold(grid, temperature[:, k]) for k in range(temperature.shape[1])]
+    temperature = state.temperature
     unit = state.film.flux_unit
     flux_1, flux_2 = (unit * flux for flux in state.fluxes)
     return FilmHeat(
         zeta=state.film.across.zeta.copy(),
         weights=state.film.across.weights.copy(),
-        temperature=np.stack(layers),
-        flux_1=_unfold(grid, flux_1),
-        flux_2=_unfold(grid, flux_2),
+        temperature=np.array(np.moveaxis(temperature, (1, 2), (0, 1)), order="C"),
+        flux_1=_rows(flux_1),
+        flux_2=_rows(flux_2),
         balance=heat_balance(state),
         solid_peclet=state.film.solid_peclet,
         sources=state.solids.forms,
@@ -151,17 +150,17 @@ def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | Non
     scaled : ScaledProblem
         With the law of asperities and the rms height of both surfaces [m].
     """
-    problem, scales, grid = scaled.problem, scaled.scales, level.grid
+    problem, scales = scaled.problem, scaled.scales
     if problem.asperities is None:
         return None
     separation, sigma = level.separation * scales.film_thickness, problem.asperity_rms
     area, spots = problem.asperities.spots(separation / sigma, sigma)
     apart = ~level.share.meets(level)  # where surfaces touch the contact carries all
     return FilmAsperities(
-        pressure=grid.unfold(apart * level.film.asperity * scales.hertz_pressure),
-        area=grid.unfold(apart * area),
-        spots=grid.unfold(apart * spots),
-        separation=grid.unfold(separation),
+        pressure=apart * level.film.asperity * scales.hertz_pressure,
+        area=apart * area,
+        spots=apart * spots,
+        separation=separation,
         rms=np.array(sigma),
         balance=np.array(asperity_balance(level)),
     )
@@ -182,7 +181,7 @@ def film_contact(level: Level, scaled: ScaledProblem) -> FilmContact | None:
     solids = level.film.asperity
     if level.equations.solids.asperities is not None:
         solids = np.where(level.share.meets(level), solids, 0.0)
-    pressure = level.grid.unfold(solids * scaled.scales.hertz_pressure)
+    pressure = solids * scaled.scales.hertz_pressure
     return FilmContact(pressure=pressure, balance=np.array(contact_balance(level)))
 
 
@@ -248,7 +247,7 @@ def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:
     for edge in grid.edge_rows:  # nothing is solved there
         fill[edge] = fill[1 if edge == 0 else -2]
     return FilmOil(
-        fill=grid.unfold(fill),
+        fill=fill,
         entering=_unfold_line(grid, passed[:, 0] * unit),
         leaving=_unfold_line(grid, passed[:, -2] * unit),
     )
@@ -291,9 +290,6 @@ def oil_balance(level: Level, *, until: float = np.inf) -> float:
     return float(change[counts].max())
 
 
-def _unfold(grid: Grid, field: Array, *, odd: bool = False) -> Array:
-    """Return a field stored with y last on the full domain, (ny, nx); ``odd`` in y or even."""
-    field = np.ascontiguousarray(field.T)
-    if odd and grid.mirror:
-        return np.concatenate([-field[:0:-1], field])
-    return grid.unfold(field)
+def _rows(field: Array) -> Array:
+    """Return a field stored with y last with its rows first, (ny, nx)."""
+    return np.array(field.T, order="C")
