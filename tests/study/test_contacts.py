@@ -209,6 +209,24 @@ def test_wrong_rows_are_named_and_the_others_are_solved_equal_ones_once(tmp_path
     assert json.loads(again.stdout.strip().splitlines()[-1])["reused"] == 2
 
 
+def test_a_list_with_decimal_commas_comes_back_with_them(tmp_path, template):
+    """Else the spreadsheet that saved it puts each line into one cell."""
+    path, out = tmp_path / "list.csv", tmp_path / "out.csv"
+    text = "remark;load [N];speed [m/s]\nV 1.5;20,5;1\nwrong;-3,5e0;1\n"
+    path.write_text(text, encoding="utf-8-sig")
+    done = command(path, "-o", out, "--template", template, "-j", 1, "--quiet")
+    assert done.exit_code == 1
+    head, first, second = out.read_text(encoding="utf-8").splitlines()
+    assert head.startswith("\ufeffremark;load [N];speed [m/s];")
+    assert first.startswith("V 1.5;20,5;1;")
+    assert second.startswith("wrong;-3,5e0;1;")
+    table = pd.read_csv(out, sep=";", decimal=",")
+    case = tmp_path / "same.toml"
+    case.write_text(COARSE.replace("20 N", "20.5 N"))
+    film = tehl.solve(read_case(case), tehl.Options(points=65)).film.central
+    assert table["central film [nm]"][0] == pytest.approx(1e9 * film)
+
+
 def test_excel_comes_back_as_an_engineer_would_format_it(tmp_path, template):
     book = Workbook()
     book.active.append(["title", "load", "speed"])

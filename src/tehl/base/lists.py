@@ -3,8 +3,10 @@
 import csv
 import re
 import tomllib
+from codecs import BOM_UTF8
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import closing
+from dataclasses import dataclass
 from importlib.util import find_spec
 from io import StringIO
 from pathlib import Path
@@ -18,11 +20,49 @@ if TYPE_CHECKING:
     import pandas as pd
 
 _DECIMAL_COMMA = re.compile(r"^([+-]?\d+),(\d+)(?=[eE\s]|$)")
+_DECIMAL_POINT = re.compile(r"^([+-]?\d+)\.(\d+)(?=[eE\s]|$)")
 _UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
 LARGEST_LIST = 50_000_000
 """Bytes of a list."""
 _PACKAGES = {".xlsx": ("openpyxl", "xlsx"), ".parquet": ("pyarrow", "parquet")}
 """Packages of formats, and the extras that install them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spelling:
+    """What parts the cells of a CSV file, the decimal mark of its numbers, and its encoding."""
+
+    delimiter: str = ","
+    decimal: str = "."
+    encoding: str = "utf-8"
+
+    def write(self, frame: "pd.DataFrame", path: Path) -> None:
+        """Write a frame as CSV, and numbers in its texts alike."""
+        if self.decimal == ",":
+            texts = frame.select_dtypes(exclude="number").columns
+            frame = frame.assign(**{name: frame[name].map(_with_comma) for name in texts})
+        frame.to_csv(
+            path, index=False, sep=self.delimiter, decimal=self.decimal, encoding=self.encoding
+        )
+
+
+def spelling_of(path: Path) -> Spelling:
+    """Return the spelling of a list; of an Excel or Parquet file the usual one.
+
+    Parameters
+    ----------
+    path : Path
+        A file that `lines_of` reads.
+    """
+    if path.suffix.lower() in _READERS:
+        return Spelling()
+    content = path.read_bytes()
+    first, *others = decoded(content).splitlines() or [""]
+    delimiter = _delimiter(first)
+    numbers = (cell.strip() for line in others for cell in line.split(delimiter))
+    has_comma = delimiter != "," and any(map(_DECIMAL_COMMA.match, numbers))
+    encoding = "utf-8-sig" if content.startswith(BOM_UTF8) else "utf-8"
+    return Spelling(delimiter, "," if has_comma else ".", encoding)
 
 
 def values_of_file(path: Path, column: str) -> list[Any]:
@@ -204,6 +244,10 @@ def _delimiter(first: str) -> str:
 def _pointed(cell: str) -> str:
     """Return a cell with a decimal point in place of a decimal comma."""
     return _DECIMAL_COMMA.sub(r"\1.\2", cell)
+
+
+def _with_comma(cell: Any) -> Any:
+    return _DECIMAL_POINT.sub(r"\1,\2", cell) if isinstance(cell, str) else cell
 
 
 def heading(cell: str) -> tuple[str, str]:

@@ -133,7 +133,7 @@ def check_output(path: Path) -> None:
 
 
 def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
-    """Write the answers as CSV, Excel or Parquet.
+    """Write the answers as CSV in the spelling of the list, Excel or Parquet.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
         else:
             frame = _frame_of(headings, lines)
             if path.suffix.lower() == ".csv":
-                frame.to_csv(temporary, index=False)
+                contacts.spelling.write(frame, temporary)
             else:
                 for_parquet(frame).to_parquet(temporary, index=False)
 

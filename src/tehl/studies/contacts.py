@@ -6,14 +6,14 @@ What a row does not state is that of the template.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tehl.api.problem import case_from_tables
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
-from tehl.base.lists import lines_of, lines_of_frame, value_of
+from tehl.base.lists import Spelling, lines_of, lines_of_frame, spelling_of, value_of
 from tehl.io.case import changed, tables_of_text, toml_tables
 from tehl.io.templates import template_text
 from tehl.studies.case import Case
@@ -80,6 +80,8 @@ class Contacts:
 
     columns: tuple[Column, ...]
     rows: tuple[Listed, ...]
+    spelling: Spelling = Spelling()  # noqa: RUF009 (frozen)
+    """Of the file, in which its answers are written as CSV."""
 
     @property
     def cases(self) -> list[Case]:
@@ -114,7 +116,7 @@ def read_contacts(path: Path, template: Path | None = None) -> Contacts:
     base, folder = template_tables(template)
     lines = lines_of(path, "list of contacts")
     try:
-        return _contacts(lines, base, folder)
+        return replace(_contacts(lines, base, folder), spelling=spelling_of(path))
     except InputError as error:
         raise InputError(f"{shortened(path)}: {error}") from None
 
