@@ -28,6 +28,7 @@ from tehl.solver.judging.grid_errors import (
     LEAST_CENTRAL,
     LEAST_MINIMUM,
     LEAST_OF_SCARCE,
+    LINE_MINIMUM,
     PART_AT_SIDES,
     THIRD_CHANGE,
     THIRD_PART,
@@ -181,6 +182,23 @@ def test_a_film_of_third_order_has_little_more_than_the_bar_to_expect(
     estimate = error_estimate(traces, FilmTraits(order=3, least=0.006, most=MOST_EXPECTED * 0.006))
     assert estimate.discretisation_central == pytest.approx(bar)
     assert estimate.discretisation_minimum == pytest.approx(bar)
+
+
+def test_the_minimum_of_a_roller_has_the_bar_of_films_between_its_nodes() -> None:
+    """A lundberg profile (M = 50) on 257 to 1025 nodes: that of the last grid is within 0.5 %."""
+    traces = [GridTrace(), GridTrace(), GridTrace()]
+    nodal, between = (2.227e-3, 2.329e-3, 2.230e-3), (2.214e-3, 2.267e-3, 2.230e-3)
+    for trace, film in zip(traces, nodal, strict=True):
+        trace.note(0.0297, film)
+        trace.note(0.0297, film)
+    traits = FilmTraits(order=3, kind="roller")
+    bar = LINE_MINIMUM * THIRD_PART * (2.329 / 2.230 - 1.0)
+    assert error_estimate(traces, traits).discretisation_minimum == pytest.approx(bar)
+    for trace, film in zip(traces, between, strict=True):
+        trace.measured = {"film_central": 0.0297, "film_minimum": film, "pressure_max": 1.0}
+        trace.measured |= {"spike": 0.5, "excess": 0.01}
+    change = 2.267 / 2.230 - 1.0
+    assert error_estimate(traces, traits).discretisation_minimum == pytest.approx(change)
 
 
 @pytest.mark.parametrize(

@@ -143,9 +143,10 @@ class GridIteration:
         """Record further values of the last of ``levels``."""
         scaled, state = self.hierarchy.scaled, self.coupling.state
         self.traces[-1].measured = measured(levels[-1], scaled, state)
+        if self.options.extrapolate or levels[-1].grid.crowding:
+            self.traces[-1].measured |= film_numbers(levels[-1])
         if not self.options.extrapolate:
             return
-        self.traces[-1].measured |= film_numbers(levels[-1])
         self.traces[-1].outputs = outputs_of(levels[-1], scaled, state)
         for trace in self.traces[:-2]:  # two grids are combined
             trace.outputs = None
