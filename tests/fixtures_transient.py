@@ -101,6 +101,8 @@ def passing(
             film_minimum=film.min(axis=(1, 2)),
             pressure_max=pressure.max(axis=(1, 2)),
             traction=np.linspace(-0.04, -0.05, time.size),
+            traction_across=np.zeros_like(time),
+            drilling_moment=np.zeros_like(time),
             rolling_moment=np.zeros_like(time),
             asperity_load=np.zeros_like(time),
             solid_friction=np.zeros_like(time),

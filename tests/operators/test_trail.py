@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 
+from tehl.estimate.ways import Way, steady_way
+from tehl.operators.carrying import Carrier
 from tehl.operators.line_source import history
-from tehl.operators.trail import Trail, VaryingTrail, lag_of
+from tehl.operators.stream_source import StreamSource
+from tehl.operators.trail import Trail, TurningTrail, VaryingTrail, lag_of
 
 NODES, ROWS = 65, 8
 
@@ -59,10 +62,10 @@ def test_a_surface_of_varying_speed_begins_with_the_steady_rise(moved):
     """A step that moves it as before changes nothing, and the rise is that of the march along x."""
     x = np.linspace(0.0, 1.0, NODES)
     flux = np.repeat(np.sin(np.pi * x)[:, None] ** 4, ROWS, axis=1)
-    trail = VaryingTrail(flux, moved * x[1], moved, (30, 12))
+    trail = VaryingTrail(flux, moved * x[1], (x[1], moved * x[1]), (30, 12))
     first = trail.past.copy()
     for _ in range(3):
-        trail.move(moved)
+        trail.move(Way(moved * x[1]))
         np.testing.assert_allclose(trail.update(flux), first, rtol=0, atol=1e-12)
         trail.advance()
     steady = Trail(flux, x[1], 1.0)
@@ -74,7 +77,7 @@ def test_heat_moves_with_a_surface_forwards_and_backwards():
     """Exponentials of a row of nodes by plain numpy, forwards, at rest and backwards."""
     rng = np.random.default_rng(1)
     flux = np.abs(rng.normal(size=(NODES, ROWS)))
-    trail = VaryingTrail(flux, 0.05, 0.75, (30, 12))
+    trail = VaryingTrail(flux, 0.05, (1.0, 0.75), (30, 12))
     trail.update(flux)
     trail.advance()
     _, decay, older, newer = trail.weights
@@ -95,7 +98,53 @@ def test_heat_moves_with_a_surface_forwards_and_backwards():
             return found
 
         wanted = trail.weights.next_ * there(now) + there(modes).sum(axis=0)
-        trail.move(moved)
+        trail.move(Way(moved))
         np.testing.assert_allclose(trail.past, wanted[:, trail.inside].T, rtol=1e-12)
         trail.update(flux)
         trail.advance()
+
+
+def spot(x: np.ndarray, y: np.ndarray, place: tuple[float, float]) -> np.ndarray:
+    """Return a flux of a spot around a place, (nx, ny)."""
+    along, across = place
+    return np.exp(-(((x[:, None] - along) / 0.3) ** 2) - ((y[None] - across) / 0.3) ** 2)
+
+
+def test_a_surface_that_turns_keeps_its_heat_wherever_it_goes():
+    """A spot of the surface takes up a constant flux on its circle, and on a way back and aside."""
+    x, y, step = np.linspace(-2.0, 2.0, 97), np.linspace(-2.0, 2.0, 81), 0.02
+    trail = TurningTrail(np.zeros((97, 81)), Carrier(x, y), step, Way(0.0), (60, 1))
+    place, turn = np.array([-0.5, 0.3]), Way(0.0)
+    for number in range(60):
+        way = steady_way((1.0 - 0.05 * number, 0.4), 0.5, step)
+        trail.move(way)
+        turn = way.after(turn)
+        cosine, sine = np.cos(way.turn), np.sin(way.turn)
+        place = np.array([[cosine, -sine], [sine, cosine]]) @ place + way[:2]
+        flux = spot(x, y, tuple(place))
+        past = trail.update(flux)
+        trail.advance()
+    time = 60 * step
+    rise = 4.0 / 3.0 * (time**1.5 - (time - step) ** 1.5) / step
+    wanted = rise * spot(x, y, tuple(place))
+    np.testing.assert_allclose(past + trail.near * flux, wanted, rtol=0, atol=2e-3 * wanted.max())
+    begun = turn.back(*place)
+    np.testing.assert_allclose(begun, (-0.5, 0.3), atol=1e-12)
+
+
+@pytest.mark.parametrize("motion", [((1.0, 0.6), 0.0), ((0.8, 0.0), 0.4), ((1.2, -0.3), -0.5)])
+def test_a_surface_that_turns_begins_with_the_steady_rise(motion):
+    """Steps that move it as before change it by what they interpolate, and it is the known one."""
+    x, y = np.linspace(-1.5, 2.0, 97), np.linspace(-2.0, 2.0, 111)
+    (u, v), spin = motion
+    flux, way = spot(x, y, (-0.2, 0.1)), steady_way((u, v), spin, x[1] - x[0])
+    trail = TurningTrail(flux, Carrier(x, y), x[1] - x[0], way, (30, 300))
+    first = trail.past + trail.near * flux
+    for _ in range(40):
+        trail.move(way)
+        last = trail.update(flux) + trail.near * flux
+        trail.advance()
+    inside = slice(-4), np.abs(y) < 1.5  # at the edges it leaves they interpolate less well
+    np.testing.assert_allclose(last[inside], first[inside], rtol=0, atol=1e-3 * first.max())
+    steady = StreamSource(x, y, 1.0 / np.sqrt(u), v / u, spin / u).rise(flux)
+    np.testing.assert_allclose(first[inside], steady[inside], atol=3e-3 * steady.max())

@@ -17,6 +17,7 @@ from tehl.estimate.film_formulas import expected_film
 from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.estimate.schedule import Schedule
+from tehl.estimate.ways import Way
 from tehl.io.templates import template_text
 from tehl.operators.reynolds import carried
 from tehl.operators.trail import VaryingTrail
@@ -243,7 +244,7 @@ def test_oil_is_conserved_through_a_reversal():
         moment, passed = run.schedule.moments[step], run.schedule.passed(step)
         assert passed is not None
         came = [
-            part * carried(one - oil.steady, way / spacing, limited=True)
+            part * carried(one - oil.steady, way.along / spacing, limited=True)
             for part, one, way in zip((2.0, -0.5), (oil.now, oil.before), passed, strict=True)
         ]
         run.stepper.step(np.zeros(run.level.grid.shape), step)
@@ -286,7 +287,7 @@ def test_oil_keeps_nothing_of_a_film_that_has_left(stride):
         cavity=SimpleNamespace(held=lambda _: film.h),
     )
     step, (first, later) = stride * spacing, (Moment(), Moment(load=1.5))
-    schedule = Schedule(step=step, moments=(first, later), travelled=None)
+    schedule = Schedule(step=step, moments=(first, later), ways=None)
     oil, largest = Oil(level, stride, 3, schedule), 0.0
     for number in range(800 // stride):
         film.h = oil.brought(number) * step / 1.5
@@ -299,9 +300,9 @@ def test_oil_keeps_nothing_of_a_film_that_has_left(stride):
 def test_the_lead_of_a_film_that_has_left_is_forgotten():
     kink = np.maximum(0.0, 1.0 - np.abs(np.arange(101.0) - 50.0) / 3.0)[None, :]
     grid = SimpleNamespace(dx=0.05, x=0.05 * np.arange(-50, 51))
-    lead = Lead(kink, grid, 3, follows=0.1)
+    lead = Lead(kink[None], grid, 3, 1.0, follows=0.1)
     for _ in range(200):
-        lead.update(np.zeros_like(kink))
+        lead.update(np.zeros_like(kink)[None])
         lead.advance()
     assert np.abs(lead.onward()).max() < 1e-6
 
@@ -353,10 +354,11 @@ def test_a_surface_keeps_its_heat_wherever_it_goes():
         return np.exp(-(((x - place) / 0.4) ** 2))[:, None]
 
     nodes = [2.0 * np.cos(np.pi * n / steps) for n in range(steps)]
-    trail, place = VaryingTrail(0.0 * stripe(0.0), step, 1.0, (steps, 0)), -0.5
+    spacing, place = x[1] - x[0], -0.5
+    trail = VaryingTrail(0.0 * stripe(0.0), step, (spacing, spacing), (steps, 0))
     for moved in nodes:
-        trail.move(moved)
-        place += moved * (x[1] - x[0])
+        trail.move(Way(moved * spacing))
+        place += moved * spacing
         past, flux = trail.update(stripe(place)), stripe(place)
         trail.advance()
     time = step * steps

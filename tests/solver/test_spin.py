@@ -115,7 +115,6 @@ def test_the_bar_contains_the_load_outside_an_ellipse():
     ("tables", "why"),
     [
         ({"supply": {"ratio": 0.5}}, "oil in cavities is conserved along x alone"),
-        ({"transient": {"duration": 1e-3}}, "move along x alone"),
         ({"contact_film": {"thickness": 5e-9}}, "oil is conserved along x alone"),
     ],
 )

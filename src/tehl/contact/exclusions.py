@@ -12,6 +12,11 @@ SOLID_PART = (
     "computed"
 )
 """Why stiffness and damping are not computed where surfaces touch."""
+SPIN_OF_LINES = (
+    "with spin the speed would change by spin times distance along the line, without end; state a "
+    "roller in slices, each a line of its own speed"
+)
+"""Why lines do not spin, and rollers neither."""
 LARGEST_TURN = 0.8
 """Largest spin of a heated surface times a_y over its speed: beyond it rows of the contact have too
 little speed along x for their heat to be followed from station to station."""
@@ -29,7 +34,6 @@ def check_motion(problem: PointContact) -> None:
     supply, law = problem.supply, problem.asperities
     one_is_rougher = problem.surface_1.rms_roughness != problem.surface_2.rms_roughness
     excluded = {
-        "transient": (problem.transient is not None, "heights move along x alone"),
         "supply.passes": (
             supply is not None and supply.passes is not None,
             "both surfaces return along x alone",
@@ -44,7 +48,7 @@ def check_motion(problem: PointContact) -> None:
         ),
         f'contact.type = "{contact.type}"': (
             contact.has_lines and turned != ["sliding_angle"],
-            "with spin the speed changes along a line",
+            SPIN_OF_LINES,
         ),
         'contact.ends = "mirrored"': (
             contact.ends == "mirrored",
@@ -84,9 +88,8 @@ def check_spin(problem: PointContact) -> None:
     excluded = {
         f'contact.type = "{problem.contact.type}"': (
             problem.contact.has_lines,
-            "the speed changes along a line",
+            SPIN_OF_LINES,
         ),
-        "transient": (problem.transient is not None, "so far films move along x alone"),
         "contact_film": (problem.contact_film is not None, "so far oil is conserved along x alone"),
         "supply" if problem.supply is not None else "cavitation": (
             problem.conserves_oil,

@@ -22,14 +22,21 @@ class Moment:
     speed: float = 1.0
     """Entrainment speed; negative against x."""
     sliding: float = 0.0
-    """u_1 - u_2 along x, over the entrainment speed of ``[contact]``."""
+    across: float = 0.0
+    """u_1 - u_2 along x and along y at the centre, over the entrainment speed of ``[contact]``."""
     curvature: float = 1.0
     """1/R_x."""
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Speeds of both surfaces over the entrainment speed of ``[contact]``."""
+        """Speeds of both surfaces along x over the entrainment speed of ``[contact]``."""
         return self.speed + 0.5 * self.sliding, self.speed - 0.5 * self.sliding
+
+    @property
+    def velocities(self) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float]]:
+        """Velocities of the mean motion and of both surfaces at the centre, over that speed."""
+        (first, second), half = self.speeds, 0.5 * self.across
+        return (self.speed, 0.0), (first, half), (second, -half)
 
 
 def moment_at(problem: PointContact, time: float) -> Moment:
@@ -48,7 +55,7 @@ def moment_at(problem: PointContact, time: float) -> Moment:
 def timeline(problem: PointContact) -> Callable[[float], Moment]:
     """Return the function from times since the start [s] to the moments of a contact."""
     courses, ratio = courses_of(problem), problem.slide_roll_ratio
-    along, _ = direction(problem.contact.sliding_angle)
+    along, across = direction(problem.contact.sliding_angle)
     load, speed, radius, sliding, slip = (
         courses[key].at if key in courses else None
         for key in ("load", "entrainment_speed", "radius", "sliding_speed", "slide_roll_ratio")
@@ -61,6 +68,7 @@ def timeline(problem: PointContact) -> Callable[[float], Moment]:
             load=load(time) if load else 1.0,
             speed=mean,
             sliding=along * slid,
+            across=across * slid,
             curvature=1.0 / radius(time) if radius else 1.0,
         )
 
@@ -83,7 +91,7 @@ def moments_of(problem: PointContact, duration: float) -> list[Moment]:
 
 def slides_ever(problem: PointContact) -> bool:
     """Whether the surfaces slide, at least at times."""
-    return problem.slide_roll_ratio != 0.0 or bool(SLIDING & set(courses_of(problem)))
+    return problem.motion.slides or bool(SLIDING & set(courses_of(problem)))
 
 
 def courses_of(problem: PointContact) -> dict[str, Course]:

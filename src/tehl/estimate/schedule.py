@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -13,9 +14,11 @@ from tehl.contact.course import LARGEST_FACTOR
 from tehl.contact.moment import Moment, courses_of, moment_at, timeline
 from tehl.contact.transient import MOTION
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.spin import spin_number, spins
+from tehl.estimate.ways import Velocity, Way, steady_way, way_of
 
-NODES_PER_STEP = 4
-"""Nodes of Gauss per step for the distances: their error is of eighth order in the step."""
+Ways = tuple[Way, Way, Way]
+"""Of the mean motion and of both surfaces."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -26,22 +29,33 @@ class Schedule:
     """Time step [a_x / u_m of the contact]."""
     moments: tuple[Moment, ...]
     """At the end of each step, that of the start first."""
-    travelled: Array | None
-    """Distances of the mean motion and of both surfaces since the start, (3, steps + 1) [a_x]; None
-    where all move as the contact states."""
+    ways: tuple[Ways, ...] | None
+    """Since the start, at the end of each step; None where all move along x at the speeds that the
+    contact states."""
+    spin: float = 0.0
+    """Of the mean motion, over u_m/a_x."""
 
-    def places(self, step: int) -> tuple[float, float] | None:
-        """Return the distances of both surfaces until a step [a_x]; None if of constant speeds."""
-        if self.travelled is None:
-            return None
-        return float(self.travelled[1, step]), float(self.travelled[2, step])
+    @property
+    def travelled(self) -> Array | None:
+        """Distances of the mean motion and of both surfaces along x since the start [a_x].
 
-    def moved(self, step: int) -> tuple[float, float] | None:
-        """Return the distances of both surfaces in a step [a_x]; None if of constant speeds."""
-        if self.travelled is None:
+        (3, steps + 1); None as of `ways`.
+        """
+        if self.ways is None:
             return None
-        first, second = self.travelled[1:, step] - self.travelled[1:, step - 1]
-        return float(first), float(second)
+        return np.array([[way.along for way in ways] for ways in self.ways]).T
+
+    def places(self, step: int) -> tuple[Way, Way] | None:
+        """Return the ways of both surfaces until a step; None as of `ways`."""
+        return None if self.ways is None else self.ways[step][1:]
+
+    def moved(self, step: int) -> tuple[Way, Way] | None:
+        """Return the ways of both surfaces in a step; None as of `ways`."""
+        if self.ways is None:
+            return None
+        (_, *now), (_, *last) = self.ways[step], self.ways[step - 1]
+        first, second = (way.since(before) for way, before in zip(now, last, strict=True))
+        return first, second
 
     def length(self, spacing: float, nodes: int) -> tuple[int, int] | None:
         """Return steps of the run, and mesh widths by which surfaces come back.
@@ -51,22 +65,24 @@ class Schedule:
         spacing, nodes : float, int
             Mesh width [a_x], and number of nodes along x: farther away heat is as at the last one.
         """
-        if self.travelled is None:
+        travelled = self.travelled
+        if travelled is None:
             return None
-        ways = self.travelled[1:]
+        ways = travelled[1:]
         back = np.maximum.accumulate(ways, axis=1) - ways
         return len(self.moments), min(math.ceil(float(back.max()) / spacing), nodes)
 
-    def passed(self, step: int) -> tuple[float, float] | None:
-        """Return the distances of the mean motion in the last step and in the last two [a_x].
+    def passed(self, step: int) -> tuple[Way, Way] | None:
+        """Return the ways of the mean motion in the last step and in the last two.
 
-        Before the start it moves as at the start; None if it always moves as the contact states.
+        Before the start it moves as at the start; None as of `ways`.
         """
-        if self.travelled is None:
+        if self.ways is None:
             return None
-        mean, before = self.travelled[0], -self.moments[0].speed * self.step
+        mean = [ways[0] for ways in self.ways]
+        before = steady_way((self.moments[0].speed, 0.0), self.spin, -self.step)
         last, farther = (mean[at] if at >= 0 else before for at in (step - 1, step - 2))
-        return float(mean[step] - last), float(mean[step] - farther)
+        return mean[step].since(last), mean[step].since(farther)
 
 
 def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
@@ -103,8 +119,8 @@ def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
         )
     stated = moment_at(problem.model_copy(update={"transient": None}), 0.0)
     constant = all((one.speed, one.sliding) == (stated.speed, stated.sliding) for one in moments)
-    travelled = None if constant else _travelled(at, step, times)
-    return Schedule(step=step, moments=moments, travelled=travelled)
+    ways = None if constant and problem.motion.is_plain else _ways(scaled, at, step, times)
+    return Schedule(step=step, moments=moments, ways=ways, spin=spin_number(scaled))
 
 
 def _check(key: str, value: float, time: float) -> None:
@@ -118,12 +134,25 @@ def _check(key: str, value: float, time: float) -> None:
         )
 
 
-def _travelled(at: Callable[[float], Moment], step: float, times: list[float]) -> Array:
-    """Return the distances of `Schedule.travelled` for steps [a_x / u_m] at times [s]."""
-    nodes, weights = np.polynomial.legendre.leggauss(NODES_PER_STEP)
-    gained = np.zeros((3, len(times)))
-    for n, (start, end) in enumerate(pairwise(times), 1):
-        for node, weight in zip(0.5 * (nodes + 1.0), 0.5 * weights, strict=True):
-            moment = at(start + node * (end - start))
-            gained[:, n] += weight * step * np.array([moment.speed, *moment.speeds])
-    return np.asarray(np.cumsum(gained, axis=1))
+def _ways(
+    scaled: ScaledProblem, at: Callable[[float], Moment], step: float, times: list[float]
+) -> tuple[Ways, ...]:
+    """Return the ways of `Schedule` for steps [a_x / u_m] at times [s]."""
+    turning = spins(scaled)
+    ways = [(Way(0.0), Way(0.0), Way(0.0))]
+    for start, end in pairwise(times):
+        gained = (
+            way_of(partial(_velocity, at, number, (start, end)), spin, step)
+            for number, spin in enumerate(turning)
+        )
+        mean, first, second = (more.after(way) for more, way in zip(gained, ways[-1], strict=True))
+        ways.append((mean, first, second))
+    return tuple(ways)
+
+
+def _velocity(
+    at: Callable[[float], Moment], number: int, step: tuple[float, float], part: float
+) -> Velocity:
+    """Return the velocity of the mean motion, 0, or of surface 1 or 2, at a part of a step [s]."""
+    start, end = step
+    return at(start + part * (end - start)).velocities[number]

@@ -2,6 +2,9 @@
 
 import math
 
+import numpy as np
+
+from tehl.base.typing import Array
 from tehl.estimate.scaling import ScaledProblem
 
 LOAD_PER_E_FOLD = 1.6312
@@ -17,6 +20,30 @@ the size."""
 def spin_number(scaled: ScaledProblem) -> float:
     """Return S = omega a_x / u_m, omega the mean spin of both surfaces [-]."""
     return scaled.problem.motion.mean_spin * scaled.scales.half_width_x / scaled.scales.speed
+
+
+def spins(scaled: ScaledProblem) -> tuple[float, float, float]:
+    """Return the same of the mean motion and of both surfaces [-]."""
+    motion, unit = scaled.problem.motion, scaled.scales.half_width_x / scaled.scales.speed
+    return spin_number(scaled), motion.spin_1 * unit, motion.spin_2 * unit
+
+
+def sliding_field(scaled: ScaledProblem, x: Array, y: Array) -> tuple[Array, Array]:
+    """Return both components of u_1 - u_2 over u_m at the moment, (ny, nx) or what broadcasts.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        The motion.
+    x, y : Array
+        Nodes along x [a_x] and y [a_y].
+    """
+    _, first, second = spins(scaled)
+    spin, moment = first - second, scaled.moment
+    if spin == 0.0:
+        return np.array([[moment.sliding]]), np.array([[moment.across]])
+    stretched = scaled.groups.ellipticity * y[:, None]
+    return moment.sliding - spin * stretched, (moment.across + spin * x)[None, :]
 
 
 def spin_error(scaled: ScaledProblem) -> float:

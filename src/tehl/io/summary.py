@@ -172,6 +172,10 @@ def _transient(run: TransientSolution) -> Block:
         "pressure": {"p_max_pa": _extreme(history.pressure_max, times, np.argmax)},
         "temperature": None if run.start.heat is None else {"film_rise_max_k": rise},
         "traction": _range(history.traction),
+        "traction_across": _range_if(history.traction_across),
+        "drilling": {"moment_n_m": _range(history.drilling_moment)}
+        if history.drilling_moment.any()
+        else None,
         "rolling": {"moment_n_m": _range(history.rolling_moment)}
         if run.start.problem.contact.has_lines
         else None,
@@ -201,6 +205,10 @@ def _extreme(values: Array, times: Array, find: Any) -> Block:
 
 def _range(values: Array) -> Block:
     return {"least": values.min(), "largest": values.max(), "start": values[0], "end": values[-1]}
+
+
+def _range_if(values: Array) -> Block | None:
+    return _range(values) if values.any() else None
 
 
 def _history_bars(bars: HistoryBars) -> Block:

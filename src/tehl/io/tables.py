@@ -199,6 +199,8 @@ HISTORY = _table(
     ("film_minimum", "h_min", "m", "smallest film between the nodes"),
     ("pressure_max", "p_max", "Pa", "largest pressure"),
     ("traction", "traction", "1", "mid-film traction coefficient, over the load at that time"),
+    ("traction_across", "traction_across", "1", "the same along y"),
+    ("drilling_moment", "drilling_moment", "N m", "moment of both tractions about the normal"),
     (
         "rolling_moment",
         "rolling_moment",

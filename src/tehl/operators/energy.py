@@ -1,5 +1,6 @@
 """Energy equation of the film on one grid (docs/theory/thermal.md): its state and one sweep."""
 
+import math
 from dataclasses import replace
 from functools import partial
 
@@ -9,8 +10,11 @@ from tehl.base.typing import Array
 from tehl.estimate.entering import kept_part
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
+from tehl.estimate.spin import sliding_field
+from tehl.estimate.ways import Way, steady_way
 from tehl.kernels.energy.march import sweep
 from tehl.kernels.energy.records import GHOSTS, Fields, Surfaces, Terms, scratch
+from tehl.operators.carrying import Carrier, slope_across
 from tehl.operators.heated_film import (
     HeatedFilm,
     closeness,
@@ -18,8 +22,9 @@ from tehl.operators.heated_film import (
     places_across,
     stress_unit,
 )
-from tehl.operators.surfaces import Solids
-from tehl.operators.trail import Trail, VaryingTrail
+from tehl.operators.stream_source import SLOWEST_ROW
+from tehl.operators.surfaces import Side, Solids
+from tehl.operators.trail import Trail, TurningTrail, VaryingTrail
 from tehl.operators.transfer import midpoints
 from tehl.operators.transient_film import MakeTrail, Path, TransientFilm, without_history
 
@@ -159,12 +164,8 @@ class FilmState:
         scaled = self.film.scaled
         if not self.model.terms.heat:
             return
-        motion, scales = scaled.problem.motion, scaled.scales
-        first, second = (speed * scales.speed for speed in scaled.moment.speeds)
-        sliding: float | Array = abs(first - second)
-        if not motion.is_plain:
-            y = scales.half_width_y * self.grid.y[:, None]
-            sliding = np.hypot(*motion.sliding_field(scales.half_width_x * self.grid.x, y))
+        scales = scaled.scales
+        sliding = scales.speed * np.hypot(*sliding_field(scaled, self.grid.x, self.grid.y))
         heat = sliding * scales.hertz_pressure / self.film.flux_unit
         self.solids.rub((heat * stress).T)
         if sheared is not None:
@@ -187,17 +188,26 @@ class FilmState:
         x, y = self.fields.x, self.fields.y[: grid.shape[0], None]
         slide_x, slide_y = terms.slide - terms.spin * y, terms.slide_y + terms.spin * x
         mean_spin = terms.spin_1 + 0.5 * terms.spin
+        mean_x = terms.speed + 0.5 * terms.slide - mean_spin * y
         odd = (self.view("odd_density") * self.view("h")).T
-        # the mean flow 1 - mean_spin y, mean_spin x carries the density with the part of slide_x
-        along, across = mean_spin * y * slide_x * odd, (slide_y - mean_spin * x * slide_x) * odd
+        # the mean flow mean_x, mean_spin x carries the density with the part of slide_x
+        along, across = (1.0 - mean_x) * slide_x * odd, (slide_y - mean_spin * x * slide_x) * odd
         found: Array = np.gradient(along, grid.dx, axis=1)
-        if grid.wraps:
-            south, north = grid.beyond(across, 1)
-            wider = np.concatenate([south, across, north])
-            found += np.gradient(wider, float(y[1, 0] - y[0, 0]), axis=0)[1:-1]
-        elif grid.ny > 1:
-            found += np.gradient(across, y[:, 0], axis=0)
-        return found
+        return found + slope_across(across, grid, self.film.scaled.groups.ellipticity)
+
+    def lead(self) -> Array:
+        """Return the flux by the motion of both surfaces less that of the mean density, over H.
+
+        Along x, and along y where the surfaces move in two directions, (1 or 2, ny, nx) [-].
+        """
+        terms = self.model.terms
+        if terms.plain:
+            mean = self.film.scaled.moment.speed * self.view("mean_density")
+            return np.ascontiguousarray((self.view("density") - mean).T)[None]
+        x, y = self.fields.x, self.fields.y[: self.grid.shape[0], None]
+        odd = self.view("odd_density").T
+        slides = terms.slide - terms.spin * y, terms.slide_y + terms.spin * x
+        return np.array([slide * odd for slide in slides])
 
     def refine_from(self, coarse: "FilmState") -> None:
         """Take temperature and stress of a coarser grid by linear interpolation."""
@@ -220,10 +230,10 @@ class FilmState:
         self._set_terms(
             self.model.terms._replace(
                 slide=full,
-                slide_y=part * whole.slide_y,
+                slide_y=-part * moment.across,
                 spin=spin,
                 speed=moment.speed - 0.5 * full,
-                speed_y=-0.5 * part * whole.slide_y,
+                speed_y=0.5 * part * moment.across,
                 spin_1=whole.spin_1 + 0.5 * (whole.spin - spin),
             )
         )
@@ -265,9 +275,16 @@ class FilmState:
         scales, unit, paths = self.film.scaled.scales, self.film.flux_unit, list[Path]()
         make: MakeTrail
         for side, surface in zip(self.film.sides, self.surfaces, strict=True):
-            moved = side.speed / scales.speed * time_step / self.grid.dx  # nodes per step
+            way = _way_of(side, scales.speed, time_step)
             if varying is not None:
-                make = partial(VaryingTrail, time_step=time_step, nodes=moved, length=varying)
+                make = partial(
+                    VaryingTrail,
+                    time_step=time_step,
+                    moved=(self.grid.dx, way.along),
+                    length=varying,
+                )
+                if not self.model.terms.plain:
+                    make = self._turning_trail(side, time_step, way, varying[0])
                 factor = replace(side, speed=scales.speed).line_factor(scales, unit)
                 paths.append((side.bulk, factor, make))
             else:
@@ -287,6 +304,18 @@ class FilmState:
         )
         self._set_terms(self.model.terms._replace(over_t=1.5 / time_step))
 
+    def _turning_trail(self, side: Side, time_step: float, way: Way, steps: int) -> MakeTrail:
+        """Return the maker of histories of a surface that leaves the lines along x."""
+        grid = self.grid
+        y = self.fields.y if grid.ny > 1 else self.fields.y[:1]
+        carrier = Carrier(grid.x, y, grid.shape[0] - 1 if grid.wraps else 0)
+        turned = side.spin * self.film.scaled.groups.ellipticity if side.spin else 0.0
+        slowest = max(1.0 - abs(turned), SLOWEST_ROW)
+        passing = math.ceil(grid.nx * grid.dx / abs(slowest * way.along))
+        return partial(
+            TurningTrail, carrier=carrier, time_step=time_step, way=way, length=(steps, passing)
+        )
+
     def update_surfaces(self) -> None:
         """Update the temperature of surfaces without a line source from the heat flux."""
         if self.model.terms.heat:
@@ -297,6 +326,12 @@ class FilmState:
 
     def _set_terms(self, terms: Terms) -> None:
         self.model = self.model._replace(terms=terms)
+
+
+def _way_of(side: Side, speed: float, time_step: float) -> Way:
+    """Return the way of a surface in a step [a_x / u_m] at its motion; ``speed`` is u_m [m/s]."""
+    along = side.speed / speed
+    return steady_way((along, side.across / speed), side.spin * along, time_step)
 
 
 def _initial_fields(grid: Grid, film: HeatedFilm) -> Fields:

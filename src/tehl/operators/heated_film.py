@@ -148,8 +148,8 @@ def _film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
     across = scales.film_thickness**2 / conductivity
     along = scales.speed / scales.half_width_x
     w0, w1, w2 = UPSTREAM[min(wedge_order, 2)]
-    motion, slide = problem.motion, -scaled.moment.sliding
-    slide_y, per_spin = -motion.sliding_ratio[1], scales.half_width_x / scales.speed
+    motion, slide, slide_y = problem.motion, -scaled.moment.sliding, -scaled.moment.across
+    per_spin = scales.half_width_x / scales.speed
     return Terms(
         peclet=film_peclet(scaled),
         compression=scales.hertz_pressure * along * across,

@@ -15,6 +15,7 @@ from tehl.base.typing import Array
 from tehl.estimate.duration import components
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem, Scales
+from tehl.estimate.ways import Way
 from tehl.roughness import Roughness, Sum
 from tehl.roughness.model import RoughnessModel
 from tehl.roughness.superposition import OneRoughness
@@ -317,29 +318,30 @@ class MovingHeights:
         first, second = (self.widths[0] / one.wavelengths[0] for one in self.surfaces)
         return first, second
 
-    def at(self, time: float, moved: Sequence[float] | None = None) -> tuple[Array, Array]:
+    def at(self, time: float, moved: Sequence[Way] | None = None) -> tuple[Array, Array]:
         """Return the heights of both surfaces, ``grid.shape`` each [-].
 
         Parameters
         ----------
         time : float
             Since the start [s].
-        moved : (float, float) or None
-            Distance of each surface since then [a_x]; None where its speed is constant.
+        moved : (Way, Way) or None
+            Of each surface since then [a_x]; None where it moves along x at its speed.
         """
-        ways = [one.speed * time for one in self.surfaces]
+        ways = [Way(one.speed * time) for one in self.surfaces]
         if moved is not None:
-            ways = [self.widths[0] * one for one in moved]
+            width = self.widths[0]
+            ways = [Way(width * one.along, width * one.across, one.turn) for one in moved]
         first, second = map(self._one, self.surfaces, ways)
         return first, second
 
-    def _one(self, surface: _Moving, way: float) -> Array:
-        """Return the heights of one surface that has moved by ``way`` [m]."""
-        total = np.zeros(self.shape)
+    def _one(self, surface: _Moving, way: Way) -> Array:
+        """Return the heights of one surface that has moved by ``way``, its distances in [m]."""
+        total, (x, y) = np.zeros(self.shape), way.back(self.x, self.y)
         for part, fade in surface.parts:
-            height = part.height(self.x, self.y, 1.0, way) / self.unit
+            height = part.height(x, y) / self.unit
             if fade > 0.0 and self.front is not None:
-                body = math.copysign(1.0, surface.speed) * (self.x - way)
+                body = math.copysign(1.0, surface.speed) * x
                 inside = np.clip((-self.front - body) / fade, 0.0, 1.0)
                 height = height * (0.5 - 0.5 * np.cos(math.pi * inside))
             total += height

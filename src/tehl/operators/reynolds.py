@@ -15,7 +15,7 @@ from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.spin import spin_number
 from tehl.kernels.faces import CLOSED, IN_TIME, STEADILY, WRAPPED, Stencil
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import MARK_THIRD_ORDER
+from tehl.kernels.reynolds import MARK_THIRD_ORDER, operator
 from tehl.operators.influence import Influence
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
@@ -87,11 +87,15 @@ class Entrainment(NamedTuple):
     drift: Array
 
 
+ALONG_X = Entrainment(np.zeros(0), np.zeros(0))
+"""That of surfaces that do not spin; and in a time step, which follows the oil."""
+
+
 def entrainment(grid: Grid, scaled: ScaledProblem) -> Entrainment:
     """Return the mean speeds of surfaces that spin; without elements if they do not.
 
-    With the spin S = omega a_x/u_m of the mean motion they are u = 1 - S kappa Y along x and
-    v = S X along y.
+    With the spin S = omega a_x/u_m of the mean motion and the speed u_0 of the moment they are
+    u = u_0 - S kappa Y along x and v = S X along y.
 
     Parameters
     ----------
@@ -100,9 +104,9 @@ def entrainment(grid: Grid, scaled: ScaledProblem) -> Entrainment:
     """
     spin, stretch = spin_number(scaled), scaled.groups.ellipticity
     if spin == 0.0:
-        return Entrainment(np.zeros(0), np.zeros(0))
+        return ALONG_X
     across = grid.dx / (stretch * grid.dy)
-    return Entrainment(1.0 - spin * stretch * grid.y, spin * across * grid.x)
+    return Entrainment(scaled.moment.speed - spin * stretch * grid.y, spin * across * grid.x)
 
 
 def conductance(stencil: Stencil, here: Array, there: Array) -> Array:
@@ -251,6 +255,25 @@ def _wedge_along(mass: Array, x: Array, spacing: float, order: int) -> Array:
         bent[:, 1:-1] = weight * np.diff(mass, n=2, axis=1)
         found[:, 1:-1] += np.diff(bent, axis=1)[:, :-1]
     return found
+
+
+def turning_wedge(mass: Array, ways: Entrainment, stencil: Stencil) -> Array:
+    """Return the upstream difference of the mass rho H where the surfaces spin, zero on the edges.
+
+    Parameters
+    ----------
+    mass : (ny, nx) array
+        rho H [-].
+    ways : Entrainment
+        Mean speeds of the surfaces.
+    stencil : Stencil
+        Weights of the steady operator.
+    """
+    nothing = np.zeros_like(mass)
+    film = Film(nothing, mass, nothing, np.ones_like(mass), *(nothing,) * 3, **ways._asdict())
+    found = np.empty_like(mass)
+    operator(film, stencil, found)
+    return -found
 
 
 def steady_flux(film: Film, held: Array, grid: Grid, order: int) -> Array:

@@ -19,6 +19,7 @@ from tehl.contact.heat import LEAST_LINE, FilmEnergy, rubbing_parts, source_form
 from tehl.contact.point_contact import PointContact
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem, Scales
+from tehl.estimate.ways import Velocity
 from tehl.operators.full_source import WRAPS, FullSource
 from tehl.operators.line_source import line_rise
 from tehl.operators.stream_source import StreamSource, row_speed
@@ -121,7 +122,7 @@ def sides(scaled: ScaledProblem, heat: FilmEnergy) -> tuple[Side, Side]:
         With the bulk temperatures [K] and the form of the source.
     """
     problem, scales = scaled.problem, scaled.scales
-    first, second = (scales.speed * speed for speed in scaled.moment.speeds)
+    _, first, second = scaled.moment.velocities
     return (
         _side(problem, 1, first, heat, scales),
         _side(problem, 2, second, heat, scales),
@@ -129,14 +130,14 @@ def sides(scaled: ScaledProblem, heat: FilmEnergy) -> tuple[Side, Side]:
 
 
 def _side(
-    problem: PointContact, number: int, speed: float, heat: FilmEnergy, scales: Scales
+    problem: PointContact, number: int, velocity: Velocity, heat: FilmEnergy, scales: Scales
 ) -> Side:
-    """Return one solid; its speed along x is that of the moment [m/s]."""
+    """Return one solid, with its velocity at the moment over u_m."""
     first, motion = number == 1, problem.motion
     bulk, spin = (heat.bulk_1, motion.spin_1) if first else (heat.bulk_2, motion.spin_2)
     solid = problem.surface_1.material if first else problem.surface_2.material
     is_heated = problem.thermal is not None
-    across = motion.velocity_of(number)[1]
+    speed, across = (scales.speed * part for part in velocity)
     stated = (solid.conductivity, solid.density, solid.heat_capacity)
     conductivity, density, capacity = (is_heated * (value or 0.0) for value in stated)
     peclet = peclet_y = 0.0

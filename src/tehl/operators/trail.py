@@ -16,7 +16,9 @@ from scipy.sparse import csc_array, eye_array
 from scipy.sparse.linalg import splu
 
 from tehl.base.typing import Array
+from tehl.estimate.ways import Way
 from tehl.kernels.energy import trail
+from tehl.operators.carrying import Carrier
 from tehl.operators.line_source import history
 from tehl.operators.reynolds import CUBIC, cubic_weights
 
@@ -54,9 +56,9 @@ class Trail:
         trail.carry(self.modes, self.fluxes, self.weights, self.lags, self.past)
         return self.past
 
-    def move(self, nodes: float) -> None:
+    def move(self, way: Way) -> None:
         """Begin a step; the surface moves as at the beginning."""
-        del nodes
+        del way
 
     def advance(self) -> None:
         """Accept the present as the last time level of the next step."""
@@ -84,16 +86,21 @@ class VaryingTrail:
         Steady flux at the beginning, dimensionless.
     time_step : float
         In units of a_x / u_m.
-    nodes : float
-        Mesh widths that the surface moves per step at the beginning.
+    moved : (float, float)
+        Mesh width, and way of the surface per step at the beginning [a_x].
     length : (int, int)
         Steps of the run, and nodes beyond either edge to which surfaces go that come back.
     """
 
     def __init__(
-        self, flux: Array, time_step: float, nodes: float, length: tuple[int, int]
+        self,
+        flux: Array,
+        time_step: float,
+        moved: tuple[float, float],
+        length: tuple[int, int],
     ) -> None:
-        steps, beyond = length
+        (steps, beyond), (self.spacing, way) = length, moved
+        nodes = way / self.spacing
         self.inside = slice(beyond, beyond + flux.shape[0])
         wide = np.pad(flux.T, ((0, 0), (beyond, beyond)))
         past = math.ceil(wide.shape[1] / nodes)
@@ -134,9 +141,9 @@ class VaryingTrail:
             self.wide += solution
         self.past = self.wide[:, self.inside].T
 
-    def move(self, nodes: float) -> None:
-        """Begin a step in which the surface moves by ``nodes`` mesh widths."""
-        shift = shift_by(nodes)
+    def move(self, way: Way) -> None:
+        """Begin a step in which the surface moves along x by a way [a_x]."""
+        shift = shift_by(way.along / self.spacing)
         trail.carry_varying(self.modes, self.fluxes, self.weights, shift, self.line, self.wide)
         self.past = self.wide[:, self.inside].T
 
@@ -154,6 +161,89 @@ class VaryingTrail:
     def arrays(self) -> dict[str, Array]:
         """Return what a later step needs."""
         return {"modes": self.modes, "fluxes": self.fluxes}
+
+
+class TurningTrail:
+    """The same of a surface that moves in any direction, or turns.
+
+    Parameters
+    ----------
+    flux : (nx, ny) array
+        Steady flux at the beginning, dimensionless.
+    carrier : Carrier
+        Of the nodes, perhaps with further rows.
+    time_step : float
+        In units of a_x / u_m.
+    way : Way
+        Of the surface per step at the beginning.
+    length : (int, int)
+        Steps of the run, and steps in which all of the surface has passed the nodes.
+    """
+
+    def __init__(
+        self, flux: Array, carrier: Carrier, time_step: float, way: Way, length: tuple[int, int]
+    ) -> None:
+        self.carrier = Carrier(carrier.x, carrier.y[: flux.shape[1]], carrier.period)
+        weights = history(sum(length), time_step)
+        self.near, self.next_ = weights.near, weights.next_
+        self.decay, self.older, self.newer = weights.decay, weights.older, weights.newer
+        wide = flux.T.ravel()
+        self.fluxes = np.repeat(wide[None], 3, axis=0)  # moved, last and the one before it moved
+        self.modes = np.zeros((2, wide.size, self.decay.size))
+        self.past, self.present = np.zeros_like(flux), flux
+        if flux.any():
+            self._begin(wide, way, length[1])
+
+    def _begin(self, flux: Array, way: Way, passing: int) -> None:
+        """Begin with the sum of what the surface took up in twice as many steps each time.
+
+        A surface that turns has left after half a turn; what it brings after a whole one is lost.
+
+        Parameters
+        ----------
+        flux : (ny nx,) array
+            Steady flux.
+        way, passing : Way, int
+            Of a step, and the number of steps.
+        """
+        moved = self.carrier.entering(way)
+        before = moved @ flux
+        self.fluxes[[0, 2]] = before
+        total = moved @ (np.outer(before, self.older) + np.outer(flux, self.newer))
+        steps = 1
+        most = passing if way.turn == 0.0 else min(passing, 0.5 * math.pi / abs(way.turn))
+        while steps < most:
+            total = total + self.decay**steps * (self.carrier.entering(way) @ total)
+            way, steps = way.after(way), 2 * steps
+        self.modes[:] = total
+        self.past = self._rise()
+
+    def move(self, way: Way) -> None:
+        """Begin a step in which the surface moves by a way."""
+        moved, (_, last, older) = self.carrier.matrix(way), self.fluxes
+        self.fluxes[0] = moved @ last
+        taken = np.outer(older, self.older) + np.outer(last, self.newer)
+        self.modes[0] = moved @ (self.decay * self.modes[1] + taken)
+        self.past = self._rise()
+
+    def update(self, flux: Array) -> Array:
+        """Return the rise of each node by what it took up before this step, (nx, ny)."""
+        self.present = flux
+        return self.past
+
+    def advance(self) -> None:
+        """Accept the present as the last time level of the next step."""
+        self.fluxes[2] = self.fluxes[0]
+        self.fluxes[1] = self.present.T.ravel()
+        self.modes[1] = self.modes[0]
+
+    def arrays(self) -> dict[str, Array]:
+        """Return what a later step needs."""
+        return {"modes": self.modes, "fluxes": self.fluxes}
+
+    def _rise(self) -> Array:
+        rise = self.next_ * self.fluxes[0] + self.modes[0].sum(axis=1)
+        return np.ascontiguousarray(rise.reshape(self.present.shape[::-1]).T)
 
 
 def lag_of(steps: float, first: int) -> trail.Lag:

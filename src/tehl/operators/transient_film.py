@@ -8,10 +8,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.estimate.ways import Way
 from tehl.kernels.energy.records import GHOSTS, Fields, Surface, Surfaces
-from tehl.operators.trail import Trail, VaryingTrail
+from tehl.operators.trail import Trail, TurningTrail, VaryingTrail
 
-MakeTrail = Callable[[Array], Trail | VaryingTrail]
+MakeTrail = Callable[[Array], Trail | VaryingTrail | TurningTrail]
 """Returns the history of a surface from its flux, (nx, ny)."""
 
 Path = tuple[float, float, MakeTrail]
@@ -83,11 +84,11 @@ class TransientFilm:
         for rubbing, flux in zip(self.rubbing, fluxes, strict=True):
             rubbing.flux[:] = flux
 
-    def move(self, nodes: Sequence[float]) -> None:
-        """Begin a step in which each surface moves by this number of mesh widths."""
+    def move(self, ways: Sequence[Way]) -> None:
+        """Begin a step in which each surface moves by its way."""
         for trails in (self.trails, [one.trail for one in self.rubbing]):
-            for trail, one in zip(trails, nodes, strict=bool(trails)):
-                trail.move(one)
+            for trail, way in zip(trails, ways, strict=bool(trails)):
+                trail.move(way)
 
     def set_pressure(self) -> None:
         """Fill the time derivative of the pressure."""

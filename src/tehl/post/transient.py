@@ -11,7 +11,7 @@ from tehl.base.typing import Array
 from tehl.contact.options import Domain
 from tehl.estimate.duration import Part, parts_of
 from tehl.estimate.grid import Grid
-from tehl.estimate.schedule import schedule_of
+from tehl.estimate.schedule import Schedule, schedule_of
 from tehl.operators.heights import MovingHeights
 from tehl.post.micro_film import smooth_reference
 from tehl.result.fields import Fields, FilmSummary, SurfaceHeights
@@ -97,14 +97,22 @@ def moving_profiles(
 
 
 def distances(run: TransientSolution) -> Array:
-    """Return how far mean motion, surface 1 and surface 2 have moved at each step [m], (3, nt)."""
-    start, time = run.start, run.history.time
-    units, motion = start.scales, start.problem.motion
-    step = run.time_step * units.speed / units.half_width_x
-    travelled = schedule_of(start.scaled_problem, step, time.size - 1).travelled
+    """Return how far mean motion, surface 1 and surface 2 have moved along x at each step [m].
+
+    (3, nt).
+    """
+    motion, travelled = run.start.problem.motion, _schedule(run).travelled
     if travelled is not None:
-        return np.asarray(units.half_width_x * travelled)
-    return np.outer((motion.entrainment_speed, motion.speed_1, motion.speed_2), time)
+        return np.asarray(run.start.scales.half_width_x * travelled)
+    speeds = motion.entrainment_speed, motion.speed_1, motion.speed_2
+    return np.outer(speeds, run.history.time)
+
+
+def _schedule(run: TransientSolution) -> Schedule:
+    """Return what was known of the steps of a run."""
+    start, units = run.start, run.start.scales
+    step = run.time_step * units.speed / units.half_width_x
+    return schedule_of(start.scaled_problem, step, run.history.time.size - 1)
 
 
 def _place_of_feature(run: TransientSolution, surface: int) -> float:
@@ -280,9 +288,8 @@ def _heights(run: TransientSolution, frame: int) -> SurfaceHeights | None:
     entrance = problem.transient.entrance if problem.transient.start == "smooth" else None
     units = run.start.scales
     moving = MovingHeights(run.start.scaled_problem, grid, entrance)
-    step = run.frames.step[frame]
-    moved = [float(way) / units.half_width_x for way in distances(run)[1:, step]]
-    first, second = moving.at(float(run.history.time[step]), moved)
+    step = int(run.frames.step[frame])
+    first, second = moving.at(float(run.history.time[step]), _schedule(run).places(step))
     return SurfaceHeights(
         surface_1=first * units.film_thickness, surface_2=second * units.film_thickness
     )

@@ -2,6 +2,8 @@
 
 from contextlib import suppress
 
+import numpy as np
+
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.moment import slides_ever
@@ -27,7 +29,8 @@ def friction(run: TransientSolution) -> Array | None:
     if without or (problem.contact_film is not None and why_share_unknown(run)):
         return None
     slides = slides_ever(problem)
-    return abs(run.history.traction) + (run.history.solid_friction if slides else 0.0)
+    film = np.hypot(run.history.traction, run.history.traction_across)
+    return film + (run.history.solid_friction if slides else 0.0)
 
 
 def late_extremes(run: TransientSolution) -> tuple[str, ...]:

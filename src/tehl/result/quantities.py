@@ -438,6 +438,17 @@ TRANSIENT: tuple[Quantity, ...] = (
     Quantity("temperature.film_rise_max_k.value", name="film_rise_max", unit="K"),
     Quantity("traction.extreme", name="traction_extreme", words={"bar": "at the extreme"}),
     Quantity(
+        "traction_across.extreme",
+        name="traction_across_extreme",
+        words={"bar": "at the extreme"},
+    ),
+    Quantity(
+        "drilling.moment_n_m.extreme",
+        name="drilling_moment_extreme",
+        unit="N mm",
+        words={"bar": "at the extreme"},
+    ),
+    Quantity(
         "rolling.moment_n_m.extreme",
         name="rolling_moment_extreme",
         unit="N mm",

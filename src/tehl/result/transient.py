@@ -53,6 +53,10 @@ class History:
     """Largest pressure of the oil; of oil and contact together if there is a boundary film [Pa]."""
     traction: Array
     """Mid-film traction coefficient of the film, over the load at that time [-]."""
+    traction_across: Array
+    """The same along y; zero where nothing slides across the entrainment [-]."""
+    drilling_moment: Array
+    """Moment of both stresses about the normal through the centre; zero without spin [N m]."""
     rolling_moment: Array
     """Moment of the pressure of a roller, or of one metre of a line contact, about the middle, with
     that of the oil upstream of the grid; zero of other contacts [N m]."""
@@ -134,7 +138,8 @@ class TransientSolution:
     """Of a certified run, extremes over time in SI with their error bars: ``"film_minimum"``,
     ``"film_central_least"``, ``"film_central_largest"``, ``"pressure_max"``, ``"film_rise_max"``
     where the film is heated, and of largest magnitude ``"traction_extreme"``, where it is heated or
-    thins and slides, and ``"rolling_moment_extreme"`` of lines and rollers."""
+    thins and slides, ``"traction_across_extreme"`` and ``"drilling_moment_extreme"`` where there
+    are these, and ``"rolling_moment_extreme"`` of lines and rollers."""
     bars: HistoryBars | None = None
     """Error bars along the history of a certified run."""
 

@@ -161,7 +161,7 @@ class Equations:
         """
         groups, oil, moment = scaled.groups, entering_oil(scaled), scaled.moment
         conserves = scaled.problem.conserves_oil
-        film, far = scaled.problem.contact_film, None
+        film, far, spins = scaled.problem.contact_film, None, spin_number(scaled) != 0.0
         if options.has_far_field and oil is None:
             far = far_field(grid, scaled.entering, moment.speed)
         modes, moments = rigid_motions(grid, groups)
@@ -174,8 +174,8 @@ class Equations:
                 groups,
                 options.order,
                 conserves=conserves,
-                speed=moment.speed,
-                oblique=groups.twist != 0.0 or spin_number(scaled) != 0.0,
+                speed=1.0 if spins else moment.speed,  # that of a spin has its own for each row
+                oblique=groups.twist != 0.0 or spins,
             ),
             influence=influence_of(grid, groups),
             deformation=choose(

@@ -147,7 +147,7 @@ def _by_grids(
         kind=scaled.problem.contact.type,
         rough=roughness.is_rough,
         newtonian=not scaled.problem.is_coupled,
-        sliding=math.hypot(scaled.moment.sliding, scaled.problem.motion.sliding_ratio[1]),
+        sliding=math.hypot(scaled.moment.sliding, scaled.moment.across),
         least=expected,
     )
     # grids that resolve the same heights

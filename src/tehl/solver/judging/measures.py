@@ -1,5 +1,6 @@
 """Values beside the film that get error bars: pressure, traction and temperatures on each grid."""
 
+import math
 from dataclasses import asdict, replace
 from typing import Literal
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.spin import sliding_field
 from tehl.operators.dry import dry_pressure
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import stress_unit
@@ -82,14 +84,8 @@ def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
 
     The ``_tail`` of each is the part of it that the zone may have beyond the sides of the grid.
     """
-    motion = scaled.problem.motion
-    parts: dict[str, tuple[Part, float]] = {
-        "traction_mid_film": ("x", scaled.moment.sliding),
-        "traction_across": ("y", motion.sliding_ratio[1]),
-        "drilling_moment": ("z", motion.spin_1 - motion.spin_2),
-    }
     found = {}
-    for name, (part, speed) in parts.items():
+    for name, (part, speed) in _parts(scaled).items():
         if speed:
             found[name] = mid_film_traction(level, scaled, state, part=part)
             wet = mid_film_stress(level, scaled, state, part) * wet_part(level.film.p)
@@ -99,6 +95,40 @@ def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
             if inside:  # not if all oil is cavitated
                 found[f"{name}_tail"] = abs(beside(level.grid, wet, scaled.groups.skew) / inside)
     return found
+
+
+def _parts(scaled: ScaledProblem) -> dict[str, tuple[Part, float]]:
+    """Return parts of traction and moment, and the sliding at this moment that makes each."""
+    motion, moment = scaled.problem.motion, scaled.moment
+    return {
+        "traction_mid_film": ("x", moment.sliding),
+        "traction_across": ("y", moment.across),
+        "drilling_moment": ("z", motion.spin_1 - motion.spin_2),
+    }
+
+
+def tractions(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
+    """Return traction at mid-film along x and y over the load of the moment, and the moment of it.
+
+    Both of a step of a transient run [-]; the moment is over a_x and the load of the contact.
+
+    Parameters
+    ----------
+    level, scaled : Level, ScaledProblem
+        The grid, and the contact with the load and the sliding of the moment.
+    state : FilmState or None
+        Temperature and stress on that grid; None for an isothermal Newtonian film.
+    """
+    load, slides = scaled.moment.load, _parts(scaled)
+    along, across, drilling = (
+        mid_film_traction(level, scaled, state, load, part) if part == "x" or speed else 0.0
+        for part, speed in slides.values()
+    )
+    return {
+        "traction": along,
+        "traction_across": across,
+        "drilling_moment": drilling * load,
+    }
 
 
 def line_rolling(level: Level, scaled: ScaledProblem) -> dict[str, float]:
@@ -247,11 +277,25 @@ def ends_of(level: Level) -> tuple[int, ...]:
     return (grid.shape[0] - 1,) if grid.mirror else (0, grid.shape[0] - 1)
 
 
-def solid_friction(level: Level) -> float:
-    """Return the friction of the solids while they slide, over the load [-]."""
-    rubbing = level.share.rubbing(level)
-    stress = 0.0 if rubbing is None else level.equations.balances.integral(rubbing[0])
-    return stress / level.sources.load
+def solid_friction(level: Level, scaled: ScaledProblem) -> float:
+    """Return the friction of the solids along their sliding, over the load [-].
+
+    With spin the sum of friction in all directions; where nothing slides, what would begin to.
+
+    Parameters
+    ----------
+    level, scaled : Level, ScaledProblem
+        The grid, and the contact with the sliding of the moment.
+    """
+    rubbing, integral = level.share.rubbing(level), level.equations.balances.integral
+    if rubbing is None:
+        return 0.0
+    slides = np.broadcast_arrays(*sliding_field(scaled, level.grid.x, level.grid.y))
+    speed = np.hypot(*slides)
+    if not speed.any():
+        return integral(rubbing[0]) / level.sources.load
+    per_speed = rubbing[0] / np.where(speed > 0.0, speed, np.inf)
+    return math.hypot(*(integral(per_speed * part) for part in slides)) / level.sources.load
 
 
 def _spike(level: Level) -> dict[str, float]:

@@ -9,6 +9,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.spin import sliding_field
 from tehl.operators.energy import FilmState, pressure_slopes
 from tehl.operators.heated_film import stress_unit
 from tehl.operators.loaded_zone import wet_part, zone_of
@@ -61,18 +62,13 @@ def newtonian_sliding(level: Level, scaled: ScaledProblem) -> tuple[Array, Array
     scaled : ScaledProblem
         With the motion and the viscosity at the inlet temperature.
     """
-    sliding, scales, motion = scaled.moment.sliding, scaled.scales, scaled.problem.motion
-    if sliding == 0 and motion.is_plain:
+    scales, slides = scaled.scales, sliding_field(scaled, level.grid.x, level.grid.y)
+    if not any(part.any() for part in slides):
         return np.zeros(level.grid.shape), np.zeros(level.grid.shape)
     film = np.maximum(level.film.h, level.equations.floor)
     lubricant = scaled.problem.lubricant
     eta = lubricant.viscosity.viscosity(scales.hertz_pressure * level.film.p, scales.temperature)
-    if motion.is_plain:
-        stress = np.asarray(-sliding * eta / scales.viscosity / film)
-        return stress, np.zeros_like(stress)
-    y = scales.half_width_y * level.grid.y[:, None]
-    field = motion.sliding_field(scales.half_width_x * level.grid.x, y)
-    along, across = (-part / scales.speed * eta / scales.viscosity / film for part in field)
+    along, across = (-part * eta / scales.viscosity / film for part in slides)
     return along, across
 
 

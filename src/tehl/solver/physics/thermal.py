@@ -16,6 +16,7 @@ from tehl.contact.moment import Moment
 from tehl.contact.options import Options
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.ways import Way
 from tehl.kernels import properties
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import HeatedFilm
@@ -321,32 +322,26 @@ class Coupling:
         if self.state is not None and self.state.model.terms.heat:
             self.state.begin_transient(time_step, varying)
 
-    def begin_step(self, moment: Moment, nodes: Sequence[float]) -> None:
+    def begin_step(self, moment: Moment, ways: Sequence[Way]) -> None:
         """Set the motion of a step.
 
         Parameters
         ----------
         moment : Moment
             Its speeds.
-        nodes : (float, float)
-            Mesh widths that both surfaces move in it.
+        ways : (Way, Way)
+            Of both surfaces in it.
         """
         if self.film is None or self.state is None:
             return
         self.lag.begin()
         self.scaled = self.film.scaled = replace(self.scaled, moment=moment)
         if self.state.transient is not None:
-            self.state.transient.move(nodes)
+            self.state.transient.move(ways)
 
     def lead(self) -> Array | None:
-        """Return the flux by the motion of both surfaces less that of rho_e at their mean, over H.
-
-        Of the last sweep, (ny, nx) [-]; None where the oil is the same across the film.
-        """
-        if self.state is None:
-            return None
-        mean = self.scaled.moment.speed * self.state.view("mean_density")
-        return np.ascontiguousarray((self.state.view("density") - mean).T)
+        """Return `FilmState.lead` of the last sweep; None where the oil is the same across."""
+        return None if self.state is None else self.state.lead()
 
     def excess(self) -> Array | None:
         """Return 1 - rho_e/rho* at the temperatures of the last sweep, (ny, nx); None if zero.
@@ -407,7 +402,7 @@ class Coupling:
             before = factors._replace(rest=np.zeros(shape), mobility=np.ones(shape))
             ones = np.ones(shape)
             before = before._replace(density=ones, stretch_x=ones, stretch_y=ones)
-        fine.sources.drift = state.drift()
+        fine.sources.drift = None if self.carries_mean else state.drift()
         if before is not None:
             bounded = fine.share.bounds_film
             largest = LARGEST_BOUNDED_STEP if bounded else LARGEST_LOG_STEP

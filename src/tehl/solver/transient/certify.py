@@ -11,7 +11,6 @@ import numpy as np
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
-from tehl.contact.moment import slides_ever
 from tehl.contact.options import Options, can_be_halved, check_certifiable
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.settled import settled
@@ -205,12 +204,16 @@ def _extremes(run: TransientSolution, end: float) -> dict[str, float]:
     }
     if start.heat is not None:
         found["film_rise_max"] = until_end(history.temperature_rise).max()
-    if start.problem.is_coupled and slides_ever(start.problem):
-        traction = until_end(history.traction)
-        found["traction_extreme"] = traction[np.abs(traction).argmax()]
-    if start.problem.contact.has_lines:
-        moment = until_end(history.rolling_moment)
-        found["rolling_moment_extreme"] = moment[np.abs(moment).argmax()]
+    sheared = {
+        "traction": history.sliding.any(),
+        "traction_across": history.traction_across.any(),
+        "drilling_moment": history.drilling_moment.any(),
+    }
+    wanted = {name: slides and start.problem.is_coupled for name, slides in sheared.items()}
+    wanted["rolling_moment"] = start.problem.contact.has_lines
+    for name in (name for name, is_wanted in wanted.items() if is_wanted):
+        values = until_end(getattr(history, name))
+        found[f"{name}_extreme"] = values[np.abs(values).argmax()]
     return {name: float(value) for name, value in found.items()}
 
 

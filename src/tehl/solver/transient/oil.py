@@ -8,7 +8,15 @@ from tehl.base.typing import Array
 from tehl.contact.moment import Moment
 from tehl.estimate.grid import Grid
 from tehl.estimate.schedule import Schedule
-from tehl.operators.reynolds import carried, steady_flux, steady_wedge, upstream
+from tehl.operators.carrying import carrier_of, slope_across
+from tehl.operators.reynolds import (
+    carried,
+    of_second_order,
+    steady_flux,
+    steady_wedge,
+    turning_wedge,
+    upstream,
+)
 from tehl.solver.cycle.level import Level
 from tehl.solver.physics.cavity import oil_flow
 
@@ -57,7 +65,7 @@ class Oil:
         steps = float(self.stride), 2.0 * self.stride
         if passed is not None:
             speed, spacing = self.schedule.moments[number].speed, self.level.grid.dx
-            steps = passed[0] / spacing, passed[1] / spacing
+            steps = passed[0].along / spacing, passed[1].along / spacing
             wedge = speed * (self.against if speed < 0.0 and not conserves else wedge)
         limited = passed is not None and conserves
         last = 2.0 * carried(self.now - steady, steps[0], limited=limited)
@@ -106,6 +114,60 @@ class Oil:
         self.against = self._wedge_against()
 
 
+def oil_of(level: Level, stride: int, order: int, schedule: Schedule) -> Oil:
+    """Return the oil of a run, before the films of its levels are those of time steps.
+
+    Parameters
+    ----------
+    level, stride, order, schedule : Level, int, int, Schedule
+        As of `Oil`.
+    """
+    turns = level.equations.entrainment.speed.size > 0
+    return (TurningOil if turns else Oil)(level, stride, order, schedule)
+
+
+class TurningOil(Oil):
+    """The same of a mean motion that spins: each node follows its circle.
+
+    The motion has no divergence, so that the wedge is the derivative along it here too.
+
+    Parameters
+    ----------
+    level, stride, order, schedule : Level, int, int, Schedule
+        As of `Oil`.
+    """
+
+    def __init__(self, level: Level, stride: int, order: int, schedule: Schedule) -> None:
+        self.carrier = carrier_of(level.grid, level.equations.groups.ellipticity)
+        self.ways = level.equations.entrainment
+        self.weights = level.stencil if order > 2 else of_second_order(level.stencil)
+        self.first = schedule.moments[0].speed
+        super().__init__(level, stride, order, schedule)
+
+    def brought(self, number: int) -> Array:
+        """Return the known terms of wedge and squeeze in a step, as of `Oil`."""
+        passed, speed = self.schedule.passed(number), self.schedule.moments[number].speed
+        assert passed is not None  # no surface that spins moves along x alone
+        last, before = (
+            part * self.carrier.carried(mass - self.steady, way)
+            for part, mass, way in zip((2.0, 0.5), (self.now, self.before), passed, strict=True)
+        )
+        wedge = self._wedge_at(speed)
+        return (last - before + 1.5 * self.steady) / self.schedule.step - wedge
+
+    def follow(self, steady: Array) -> None:
+        """Take another mass, (ny, nx), as the steady one that keeps its own wedge."""
+        self.steady = steady
+
+    def _wedge_against(self) -> Array:
+        return self.wedge  # `_wedge_at` has each direction
+
+    def _wedge_at(self, speed: float) -> Array:
+        """Return the steady wedge at an entrainment speed over that of the contact."""
+        ways = self.ways._replace(speed=self.ways.speed + (speed - self.first))
+        return turning_wedge(self.steady, ways, self.weights)
+
+
 def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
     """Return oil and upstream difference of its flux in a steady film, (ny, nx) each [-]."""
     if not level.stencil.conserves:
@@ -138,7 +200,7 @@ class _Rate:
         return self.rate
 
     def update(self, now: Array) -> Array:
-        """Set q of the present film, (ny, nx); return the change of its rate."""
+        """Set q of the present film, as `steady` has it; return the change of its rate."""
         rate = self._rate(now)
         more = rate - self.rate
         self.now, self.rate = now, rate
@@ -215,25 +277,39 @@ class Lead(_Rate):
 
     Parameters
     ----------
-    lead : (ny, nx) array or None
-        q of the steady film [-]; None if it is always zero.
+    lead : (parts, ny, nx) array or None
+        q of the steady film along x, and perhaps along y [-]; None if it is always zero.
     grid, wedge_order : Grid, int
         Nodes, and order of the upstream difference of the steady film.
+    stretch : float
+        kappa = a_y/a_x.
     follows : float
         Part of the way to the film of each step by which the q that keeps its own difference goes.
     """
 
     def __init__(
-        self, lead: Array | None, grid: Grid, wedge_order: int, follows: float = 0.0
+        self,
+        lead: Array | None,
+        grid: Grid,
+        wedge_order: int,
+        stretch: float,
+        follows: float = 0.0,
     ) -> None:
-        self.grid, self.wedge_order, self.follows = grid, wedge_order, follows
-        self.follow(np.zeros((0, 0)) if lead is None else lead)
+        self.grid, self.wedge_order, self.stretch, self.follows = (
+            grid,
+            wedge_order,
+            stretch,
+            follows,
+        )
+        self.follow(np.zeros((0, 0, 0)) if lead is None else lead)
         self.begin(-self.own)
 
     def follow(self, steady: Array) -> None:
-        """Take another q, (ny, nx), as the one that keeps its own difference."""
-        self.steady = steady
-        self.own = steady_wedge(steady, self.grid, self.wedge_order) if steady.size else steady
+        """Take another q, (parts, ny, nx), as the one that keeps its own difference."""
+        self.steady = self.own = steady
+        if steady.size:
+            along, *across = steady
+            self.own = steady_wedge(along, self.grid, self.wedge_order) + self._across(across)
 
     def advance(self) -> None:
         """Accept the present q as the previous one of the next step, and follow it."""
@@ -243,5 +319,10 @@ class Lead(_Rate):
 
     def _rate(self, now: Array) -> Array:
         """Return -dq/dx: the steady film keeps its own difference, the change has a central one."""
-        change = np.gradient(now - self.steady, self.grid.dx, axis=1)
+        along, *across = now - self.steady
+        change = np.gradient(along, self.grid.dx, axis=1) + self._across(across)
         return np.asarray(-self.own - change)
+
+    def _across(self, parts: list[Array]) -> Array | float:
+        """Return the central difference along y of what there is of q along it."""
+        return sum(slope_across(part, self.grid, self.stretch) for part in parts)

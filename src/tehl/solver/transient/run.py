@@ -30,8 +30,9 @@ from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Re
 from tehl.solver.judging.measures import (
     is_resolved,
     mid_film_stress,
-    mid_film_traction,
     rolling_moment,
+    solid_friction,
+    tractions,
 )
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import try_strategies
@@ -213,16 +214,15 @@ class Run:
         """Record a step; at time zero it has no cycles."""
         time_now = step * self.seconds
         moment = self.schedule.moments[step]
-        scaled, load = replace(self.scaled, moment=moment), moment.load
+        scaled = replace(self.scaled, moment=moment)
         numbers = {
             "time": time_now,
-            "load": load,
+            "load": moment.load,
             "speed": moment.speed,
             "radius": 1.0 / moment.curvature,
             "sliding": moment.sliding,
-            "traction": mid_film_traction(
-                self.level, scaled, self.stepper.solver.coupling.state, load
-            ),
+            "solid_friction": solid_friction(self.level, scaled),
+            **tractions(self.level, scaled, self.stepper.solver.coupling.state),
             "rolling_moment": rolling_moment(self.level, scaled),
             "temperature_rise": self.stepper.solver.coupling.temperature_rise(),
             "cycles": end.cycles if end else 0,

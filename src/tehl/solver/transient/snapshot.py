@@ -19,7 +19,6 @@ from tehl.result.solution import Cost
 from tehl.result.transient import Frames, History, Profiles
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.film_summary import film_summary
-from tehl.solver.judging.measures import solid_friction
 
 Heights = tuple[Array, Array]
 COLUMNS = tuple(one.name for one in fields(History))
@@ -89,7 +88,6 @@ class Record:
             "film_minimum": film.minimum,
             "pressure_max": float(carried(level).max()),
             "asperity_load": sum(level.share.parts(level).values()),
-            "solid_friction": solid_friction(level),
             "rigid_approach": level.rigid_approach,
         }
         self.rows.append(tuple(float(row[name]) for name in COLUMNS))
@@ -114,6 +112,7 @@ class Record:
             "film_central": scales.film_thickness,
             "film_minimum": scales.film_thickness,
             "pressure_max": scales.hertz_pressure,
+            "drilling_moment": scales.load * scales.half_width_x,
             "rolling_moment": scales.hertz_pressure * scales.half_width_x**2 * scales.half_width_y,
         }
         columns: dict[str, Any] = {

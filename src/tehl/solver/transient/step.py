@@ -21,7 +21,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.contact.transient import Transient
 from tehl.estimate.schedule import Schedule
-from tehl.operators.reynolds import step_stencil
+from tehl.operators.reynolds import ALONG_X, step_stencil
 from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.relaxation import Relaxation
@@ -29,7 +29,7 @@ from tehl.solver.cycle.start import pose_step
 from tehl.solver.cycle.transfers import TRANSFERS
 from tehl.solver.judging.convergence import LEAST_CYCLES, LEAST_KELVIN, RUNAWAY
 from tehl.solver.physics.boundary_cycle import TouchingCycle
-from tehl.solver.transient.oil import Lead, Oil, Squeeze
+from tehl.solver.transient.oil import Lead, Squeeze, oil_of
 from tehl.solver.transient.predictor import Predictor
 
 LARGEST_STEP_LOAD_ERROR = 1e-4
@@ -88,14 +88,15 @@ class Stepper:
         touches = level.equations.solids.contact_film is not None
         # where surfaces may touch fluxes are of second order at most
         order = min(solver.options.order, 2) if touches else solver.options.order
-        self.oil = Oil(level, transient.stride, order, schedule)
+        self.oil = oil_of(level, transient.stride, order, schedule)
         self.predictor = Predictor(level.pressure, transient.stride)
         self.motion = np.zeros_like(level.rigid)  # change of the rigid motions in the last step
         # all levels take the same time step, and so the same weight of rho H
         levels = solver.hierarchy.chain(solver.levels)
         for one in levels:
             stencil = step_stencil(one.stencil, schedule.step)
-            one.equations = replace(one.equations, stencil=stencil)
+            one.equations = replace(one.equations, stencil=stencil, entrainment=ALONG_X)
+            one.film = one.film._replace(**ALONG_X._asdict())
         self.equations = level.equations  # with load and gap of the start
         self.method: Callable[[], None] = partial(
             cycle, levels, solver.hierarchy.coarsest.step, TRANSFERS, SHAPE
@@ -106,7 +107,8 @@ class Stepper:
             self.method = self.touching.step
         self.squeeze: Squeeze | Lead
         if varying is not None:
-            self.squeeze = Lead(self._lead(), level.grid, order, self.oil.follows)
+            stretch = solver.hierarchy.scaled.groups.ellipticity
+            self.squeeze = Lead(self._lead(), level.grid, order, stretch, self.oil.follows)
         else:
             step = (schedule.step, level.grid, transient.stride)
             excess = solver.coupling.excess()
@@ -132,7 +134,7 @@ class Stepper:
         level, coupling = self.solver.finest, self.solver.coupling
         moment, moved = self.schedule.moments[number], self.schedule.moved(number)
         if moved is not None:
-            coupling.begin_step(moment, [way / level.grid.dx for way in moved])
+            coupling.begin_step(moment, moved)
         self.solver.hierarchy.coarsest.last = None  # that of the last step a resumed run lacks
         history, start = self.oil.brought(number), level.state()
         equations = self.equations.at(moment, self.solver.hierarchy.scaled)
@@ -211,7 +213,7 @@ class Stepper:
         raise StepError("stalled", change)
 
     def _lead(self) -> Array | None:
-        """Return the flux that leads that of the mean motion, (ny, nx); None without."""
+        """Return the flux that leads that of the mean motion, as `Lead` has it; None without."""
         lead = self.solver.coupling.lead()
         return None if lead is None else lead * self.solver.finest.film.h
 

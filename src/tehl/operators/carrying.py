@@ -1,0 +1,143 @@
+"""Fields that a motion in the plane carries along, by cubic interpolation where each node was.
+
+Motions along x alone have `tehl.operators.reynolds.carried`.
+"""
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from tehl.base.typing import Array, BoolArray
+from tehl.estimate.grid import Grid
+from tehl.estimate.ways import Way
+
+SAME_WAY = 1e-9
+"""Difference of two ways, in mesh widths, below which they carry a field alike."""
+
+
+class Carrier:
+    """Carries fields on the full domain of one grid.
+
+    Parameters
+    ----------
+    x, y : Array
+        Nodes [a_x]; those along x are uniform.
+    period : int
+        Rows after which the film repeats itself along y; zero if it does not.
+    """
+
+    def __init__(self, x: Array, y: Array, period: int = 0) -> None:
+        self.x, self.y, self.period = x, y, period
+        self._last: tuple[Way, csr_array] | None = None
+
+    def carried(self, field: Array, way: Way) -> Array:
+        """Return a field after a motion; beyond the edges it is as there.
+
+        Parameters
+        ----------
+        field : Array
+            Nodal values, (ny, nx).
+        way : Way
+            Of the motion.
+        """
+        return np.asarray((self.matrix(way) @ field.ravel()).reshape(field.shape))
+
+    def matrix(self, way: Way) -> csr_array:
+        """Return the interpolation of a field before a motion, (ny nx, ny nx)."""
+        same = SAME_WAY * (self.x[1] - self.x[0])
+        if self._last is None or max(abs(np.subtract(way, self._last[0]))) > same:
+            self._last = way, self._matrix(way)
+        return self._last[1]
+
+    def entering(self, way: Way) -> csr_array:
+        """Return the same of a field that is zero beyond the edges."""
+        return self._matrix(way, empty=True)
+
+    def _matrix(self, way: Way, *, empty: bool = False) -> csr_array:
+        x, y, shape = self.x, self.y, (self.y.size, self.x.size)
+        there = np.broadcast_arrays(*way.back(x[None, :], y[:, None]))
+        columns, along, outside = _cubic(x, there[0])
+        if y.size == 1:
+            rows, across = np.zeros((1, *shape), int), np.ones((1, *shape))
+        elif self.period:
+            rows, across = _cubic_uniform((there[1] - y[0]) / (y[1] - y[0]))
+            rows = rows % self.period
+        else:
+            rows, across, aside = _cubic(y, there[1])
+            outside = outside | aside
+        weights = across[:, None] * along[None]
+        if empty:
+            weights = np.where(outside, 0.0, weights)
+        nodes = rows[:, None] * x.size + columns[None]
+        count, size = len(rows) * len(columns), x.size * y.size
+        ends = count * np.arange(size + 1)
+        by_node = (part.reshape(count, size).T.ravel() for part in (weights, nodes))
+        return csr_array((*by_node, ends), shape=(size, size))
+
+
+def carrier_of(grid: Grid, stretch: float) -> Carrier:
+    """Return the carrier of a grid that has no symmetry line.
+
+    Parameters
+    ----------
+    grid, stretch : Grid, float
+        Nodes, and kappa = a_y/a_x.
+    """
+    y = stretch * grid.y if grid.ny > 1 else np.zeros(1)
+    return Carrier(grid.x, y, grid.shape[0] - 1 if grid.wraps else 0)
+
+
+def slope_across(field: Array, grid: Grid, stretch: float) -> Array:
+    """Return the central difference of a field along y, (ny, nx) [1/a_x]; zero of a line.
+
+    Parameters
+    ----------
+    field : Array
+        Nodal values, (ny, nx).
+    grid, stretch : Grid, float
+        Nodes, and kappa = a_y/a_x.
+    """
+    if grid.ny == 1:
+        return np.zeros_like(field)
+    y = stretch * grid.y
+    if grid.wraps:
+        south, north = grid.beyond(field, 1)
+        wider = np.concatenate([south, field, north])
+        return np.asarray(np.gradient(wider, float(y[1] - y[0]), axis=0)[1:-1])
+    return np.asarray(np.gradient(field, y, axis=0))
+
+
+def _cubic(nodes: Array, places: Array) -> tuple[Array, Array, BoolArray]:
+    """Return nodes and weights, (4, ...), at places, and which are outside.
+
+    Beyond the ends of the nodes their values go on.
+    """
+    ends = nodes[1] - nodes[0], nodes[-1] - nodes[-2]
+    reach = np.arange(1.0, 4.0)
+    wider = np.concatenate([nodes[0] - ends[0] * reach[::-1], nodes, nodes[-1] + ends[1] * reach])
+    rounding = 1e-9 * min(ends)
+    outside = (places < nodes[0] - rounding) | (places > nodes[-1] + rounding)
+    here = np.clip(places, wider[1], wider[-2])
+    first = np.clip(np.searchsorted(wider, here, side="right") - 2, 0, wider.size - 4)
+    known = wider[first[None] + np.arange(4).reshape(4, *(1,) * places.ndim)]
+    weights = np.ones_like(known)
+    for one in range(4):
+        for other in range(4):
+            if other != one:
+                weights[one] *= (here - known[other]) / (known[one] - known[other])
+    near = first[None] + np.arange(4).reshape(4, *(1,) * places.ndim) - reach.size
+    return np.clip(near, 0, nodes.size - 1), weights, outside
+
+
+def _cubic_uniform(places: Array) -> tuple[Array, Array]:
+    """Return nodes and weights, (4, ...), of uniform nodes without ends, at places in widths."""
+    first = np.floor(places).astype(int) - 1
+    t = places - first - 1.0
+    weights = np.array(
+        [
+            -t * (t - 1.0) * (t - 2.0) / 6.0,
+            (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
+            -(t + 1.0) * t * (t - 2.0) / 2.0,
+            (t + 1.0) * t * (t - 1.0) / 6.0,
+        ]
+    )
+    return first[None] + np.arange(4).reshape(4, *(1,) * places.ndim), weights
