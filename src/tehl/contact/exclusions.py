@@ -90,11 +90,6 @@ def check_spin(problem: PointContact) -> None:
             problem.contact.has_lines,
             SPIN_OF_LINES,
         ),
-        "contact_film": (problem.contact_film is not None, "so far oil is conserved along x alone"),
-        "supply" if problem.supply is not None else "cavitation": (
-            problem.conserves_oil,
-            "so far oil in cavities is conserved along x alone",
-        ),
         "dynamics": (
             problem.dynamics is not None,
             "so far moving films are linearised along x alone",

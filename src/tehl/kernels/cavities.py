@@ -12,6 +12,7 @@ from tehl.kernels.reynolds import (
     inflow,
     inner_end,
     line_operator,
+    passed_on,
     row_above,
     row_below,
     sides,
@@ -22,9 +23,12 @@ from tehl.kernels.reynolds import (
 def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array, ends: IntArray) -> None:
     """Mark cavitated nodes that stay partly filled: less oil comes than a full one would pass on.
 
-    ``scratch`` is (1, nx); nodes from ``ends[j]`` of line j on keep their mark.
+    ``scratch`` is (1, nx), or (ny, nx) where the surfaces spin; nodes from ``ends[j]`` of line j on keep their mark.
     """
     film, rhs, scratch, ends = raw((film, rhs, scratch, ends))
+    if film.speed.shape[0] > 0:
+        _mark_curved(film, stencil, rhs, scratch, ends)
+        return
     partial, p, nx = film.partial, film.p, film.p.shape[1]
     for j in range(0 if stencil.mirror else 1, inner_end(p.shape[0], stencil.mirror)):
         if ends[j] == 0:
@@ -36,6 +40,61 @@ def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array, ends:
         line_operator(film, stencil, j, scratch, (0, end))
         for i in range(1, end):
             partial[j, i] = p[j, i] == 0.0 and rhs[j, i] - scratch[0, i] >= 0.0
+
+
+@helper
+def _mark_curved(film: Film, stencil: Stencil, rhs: Array, scratch: Array, ends: IntArray) -> None:
+    """Mark the partly filled nodes where the surfaces spin, and fill them."""
+    partial, p, (ny, nx) = film.partial, film.p, film.p.shape
+    for j in range(ny):
+        for i in range(nx):
+            full = film.rho[j, i] * film.h[j, i]
+            if j == 0 or j == ny - 1 or i == 0 or i == nx - 1:
+                partial[j, i] = film.layer[j] < full
+                film.held[j, i] = min(film.layer[j], full)
+            elif i < ends[j]:
+                partial[j, i] = p[j, i] == 0.0
+    fill(film, stencil)
+    for j in range(1, ny - 1):
+        line_operator(film, stencil, j, scratch, (j, ends[j]))
+    for j in range(1, ny - 1):
+        for i in range(1, ends[j]):
+            partial[j, i] = p[j, i] == 0.0 and rhs[j, i] - scratch[j, i] >= 0.0
+    fill(film, stencil)
+
+
+@helper
+def fill(film: Film, stencil: Stencil) -> None:
+    """Fill the partly filled nodes with the oil that flows in, downstream from node to node.
+
+    Rows that move against x, and columns against y, the other way round; both lie beside each
+    other, so that a second time brings what has come from there.
+    """
+    (ny, nx), rate = film.p.shape, stencil.w0 - stencil.w2
+    for back in (False, True, False, True):
+        for column in range(1, nx - 1):
+            i = nx - 1 - column if back else column
+            v = film.drift[i]
+            for row in range(1, ny - 1):
+                j = row if v > 0.0 else ny - 1 - row
+                u = film.speed[j]
+                if not film.partial[j, i] or (u < 0.0) != back:
+                    continue
+                along, across = (0, 1 if back else -1), (-1 if v > 0.0 else 1, 0)
+                inflow_x = passed_on(film, stencil, (j, i + along[1]), along, False)
+                inflow_y = passed_on(film, stencil, (j + across[0], i), across, False)
+                gained, _ = _flow_into(film, stencil, j, i)
+                if not film.partial[j, i - along[1]]:
+                    gained -= _flow_from(film, stencil, j, i, -along[1])
+                total = abs(u) * inflow_x + abs(v) * inflow_y + gained
+                film.held[j, i] = total / (rate * max(abs(u) + abs(v), 1e-12))
+
+
+@helper
+def _flow_from(film: Film, stencil: Stencil, j: int, i: int, way: int) -> float:
+    """Return the pressure flow into a node from the next one along x, east (1) or west (-1)."""
+    eps = both_x(stencil, film.eps_x[j, min(i, i + way)], film.eps_x[j, max(i, i + way)])
+    return 0.5 * stencil.cx * eps * (film.p[j, i + way] - film.p[j, i])
 
 
 @kernel
@@ -52,7 +111,10 @@ def keep_to_fronts(film: Film, mirror: int, width: int, frozen: FlagArray, ends:
             frozen[j, i] = 1
     for j in range(0 if mirror else 1, inner_end(ny, mirror)):
         for i in range(1, nx - 1):
-            if partial[j, i] > 0 or partial[j, i - 1] == 0:
+            begins = partial[j, i - 1] > 0
+            if film.speed.shape[0] > 0:
+                begins = begins or partial[j, i + 1] + partial[j - 1, i] + partial[j + 1, i] > 0
+            if partial[j, i] > 0 or not begins:
                 continue
             end = min(i + width + 1, nx - 1)
             for row in range(max(j - width, 0), min(j + width + 1, ny)):
@@ -71,6 +133,11 @@ def mark_second_order(film: Film, stencil: Stencil) -> None:
     partial, second, order = film.partial, film.second, 1 if stencil.w2 == 0.0 else 2
     order = 3 if stencil.third > 0.0 else order
     ny, nx = film.p.shape
+    if film.speed.shape[0] > 0:  # each direction has its own nodes upstream
+        for j in range(ny):
+            for i in range(nx):
+                second[j, i] = order - 1
+        return
     for j in range(ny):
         second[j, 0] = 0
         second[j, 1] = order > 1 and not partial[j, 0]
@@ -98,6 +165,9 @@ def oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -> None:
     ny, nx = film.p.shape
     rate = stencil.w0 - stencil.w2
     clear(passed)
+    if film.speed.shape[0] > 0:
+        _curved_oil_flow(film, stencil, held, passed)
+        return
     for j in range(ny):
         for i in range(nx):
             held[j, i] = film.rho[j, i] * film.h[j, i]
@@ -120,6 +190,31 @@ def oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -> None:
             passed[j, i] = flux - _face_flow(film, stencil, j, i) / rate
         if film.partial[j, nx - 1]:
             held[j, nx - 1] = flux
+
+
+@helper
+def _curved_oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -> None:
+    """Write the same where the surfaces spin."""
+    (ny, nx), rate = film.p.shape, stencil.w0 - stencil.w2
+    for j in range(ny):
+        u = film.speed[j]
+        for i in range(nx):
+            full = film.rho[j, i] * film.h[j, i]
+            held[j, i] = film.held[j, i] if film.partial[j, i] else full
+            after = i + 1 if u > 0.0 else i - 1
+            inside = 0 < j < ny - 1 and 0 < i < nx - 1
+            if inside and film.partial[j, i] and not film.partial[j, after]:
+                comes_back = _flow_from(film, stencil, j, i, after - i)
+                held[j, i] += comes_back / (rate * (abs(u) + abs(film.drift[i])))
+    for j in range(1, ny - 1):
+        u = film.speed[j]
+        for i in range(nx - 1):
+            from_, way = (i, (0, -1)) if u > 0.0 else (i + 1, (0, 1))
+            moved = abs(u) * passed_on(film, stencil, (j, from_), way, False) / rate
+            pressed = 0.0
+            if not (film.partial[j, from_] and not film.partial[j, 2 * i + 1 - from_]):
+                pressed = _flow_from(film, stencil, j, i, 1) / rate
+            passed[j, i] = (moved if u > 0.0 else -moved) - pressed
 
 
 @helper

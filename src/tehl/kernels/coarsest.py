@@ -216,18 +216,21 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
     """Fill the derivatives of L at node ``near[0]`` by pressure and film of its neighbours."""
     near, by_p, by_h = work.near, work.by_p, work.by_h
     _clear_slopes(work)
-    here = near[HERE]
+    here, curved = near[HERE], state.lines.speed.shape[0] > 0
+    upstream = (
+        EAST if curved and state.lines.speed[here // state.lines.drift.shape[0]] < 0.0 else WEST
+    )
     for n in range(EAST, FAR):
         there = near[n]
         if (
             stencil.conserves == STEADILY
-            and n == WEST
+            and n == upstream
             and state.partial[there]
             and not state.partial[here]
         ):
             continue
         _add_face(state, stencil, work, n)
-    if state.lines.speed.shape[0] > 0:
+    if curved:
         _add_curved(state, stencil, work)
         return
     first, far, west = near[FAR] == near[WEST], near[FAR], near[WEST]
@@ -268,6 +271,15 @@ def _subtract_wedge(
     w0 = stencil.w0 - stencil.w2 if first else stencil.w0
     w1 = stencil.w1 + 2.0 * stencil.w2 if first else stencil.w1
     w2 = 0.0 if first else stencil.w2
+    if stencil.conserves == STEADILY:
+        partial = (
+            state.partial[near[HERE]] > 0,
+            state.partial[near[next_slot]] > 0,
+            state.partial[near[far_slot]] > 0,
+        )
+        second = state.second[near[HERE]] > 0 and not (partial[1] or partial[2])
+        before = state.second[near[next_slot]] > 0 and not (partial[2] or first)
+        w0, w1, w2 = flux_weights(stencil, partial, (second, before), 1 if first else 2)
     for n, w in ((HERE, w0), (next_slot, w1), (far_slot, w2)):
         there = near[n]
         work.by_p[n] -= size * w * state.drho[there] * state.h[there]
@@ -330,7 +342,8 @@ def _assemble(
         if state.stiffness.shape[0] > 0:
             _touch(state, system, work)
         _add_slopes(system, work, row, count)
-        if stencil.conserves == STEADILY and not work.dry[here]:
+        passes = stencil.conserves == STEADILY and state.lines.speed.shape[0] == 0
+        if passes and not work.dry[here]:
             _add_upstream(state, stencil, system, work, (row, count, nx))
         for column in range(count):
             work.matrix[row, column] = work.full[work.free[column]]

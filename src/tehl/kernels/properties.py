@@ -35,7 +35,8 @@ class Film(NamedTuple):
     of the pressure gradient at constant sliding speed if the film thins in shear
     (`tehl.kernels.reynolds.tangent_source`). Where oil is conserved (`Stencil.conserves`),
     ``partial`` marks the cavitated nodes whose gap is partly filled, ``second`` the nodes that
-    pass on oil with second order, and ``layer`` (ny,) is the oil that enters each line.
+    pass on oil with second order, and ``layer`` (ny,) is the oil that enters each line. Where the
+    surfaces spin too, ``held`` is the oil that partly filled nodes hold: it comes from two sides.
 
     With asperities finer than the grid ``p`` is the pressure of the oil, ``asperity`` theirs and
     ``stiffness`` its slope -dp_a/dH by the separation H of the mean planes; ``h`` is the mean gap
@@ -63,6 +64,7 @@ class Film(NamedTuple):
     partial: FlagArray = np.zeros((0, 0), np.uint8)
     second: FlagArray = np.zeros((0, 0), np.uint8)
     layer: Array = np.zeros(0)
+    held: Array = np.zeros((0, 0))
     asperity: Array = np.zeros((0, 0))
     stiffness: Array = np.zeros((0, 0))
     opening: Array = np.zeros((0, 0))

@@ -31,6 +31,7 @@ from tehl.kernels.reynolds import (
     curved_wedge,
     flux_weights,
     inner_end,
+    is_second,
     join_ends,
     line_operator,
     row_above,
@@ -288,10 +289,28 @@ def _load_curved(
         drift = abs(film.drift[i])
         cells[at, ACROSS, lane] += drift * stencil.w0 * cells[at, MASS_P, lane]
         first = k == 1
-        cells[at, OWN, lane] = size * (stencil.w0 - stencil.w2 if first else stencil.w0)
-        cells[at, UPSTREAM, lane] = size * (stencil.w1 + 2.0 * stencil.w2 if first else stencil.w1)
-        cells[at, FARTHER, lane] = 0.0 if first else size * stencil.w2
+        w0 = stencil.w0 - stencil.w2 if first else stencil.w0
+        w1 = stencil.w1 + 2.0 * stencil.w2 if first else stencil.w1
+        w2 = 0.0 if first else stencil.w2
+        if stencil.conserves == STEADILY and 1 <= k < nx - 1:
+            w0, w1, w2 = _curved_weights(film, stencil, (j, i), (1 if back else -1, k))
+        cells[at, OWN, lane] = size * w0
+        cells[at, UPSTREAM, lane] = size * w1
+        cells[at, FARTHER, lane] = size * w2
         cells[at, BACK, lane] = drift
+
+
+@helper
+def _curved_weights(
+    film: Film, stencil: Stencil, node: Span, way: Span
+) -> tuple[float, float, float]:
+    """Return the weights of the oil flux at a node; ``way``: columns upstream, place in the flow."""
+    (j, i), (di, k) = node, way
+    far = i + 2 * di if k > 1 else i + di
+    partial = film.partial[j, i] > 0, film.partial[j, i + di] > 0, film.partial[j, far] > 0
+    second = is_second(film, node, (0, di))
+    before = is_second(film, (j, i + di), (0, di)) if k > 1 else False
+    return flux_weights(stencil, partial, (second, before), k)
 
 
 @helper

@@ -88,6 +88,9 @@ def line_operator(film: Film, stencil: Stencil, j: int, out: Array, place: tuple
     """
     _line_flow(film, stencil, j, out, place)
     if film.speed.shape[0] > 0:
+        if stencil.conserves == STEADILY:
+            _subtract_curved_flux(film, stencil, j, out, place)
+            return
         for i in range(1, place[1]):
             out[place[0], i] -= curved_wedge(film, stencil, j, i)
     elif stencil.conserves == STEADILY:
@@ -225,6 +228,73 @@ def _subtract_flux(
             out[row, i] += west * (p[j, i] - p[j, i - 1])
         out[row, i] -= rate * (full - flux)
         before, flux = mass, full
+
+
+@helper
+def _subtract_curved_flux(
+    film: Film, stencil: Stencil, j: int, out: Array, place: tuple[int, int]
+) -> None:
+    """Subtract the same of surfaces that spin: partly filled nodes pass on the oil that they hold.
+
+    It comes from both sides upstream (`tehl.kernels.cavities.fill`). No pressure flow leaves a film
+    upstream along x.
+    """
+    p, eps_x, half_x, (row, end) = film.p, film.eps_x, 0.5 * stencil.cx, place
+    u = film.speed[j]
+    back = -1 if u > 0.0 else 1
+    for i in range(1, end):
+        v = film.drift[i]
+        wedge = abs(u) * _flux_difference(film, stencil, (j, i), (0, back))
+        wedge += abs(v) * _flux_difference(film, stencil, (j, i), (-1 if v > 0.0 else 1, 0))
+        out[row, i] -= wedge
+        if film.partial[j, i + back] and not film.partial[j, i]:
+            face = half_x * both_x(stencil, eps_x[j, min(i, i + back)], eps_x[j, max(i, i + back)])
+            out[row, i] += face * (p[j, i] - p[j, i + back])
+
+
+@helper
+def _flux_difference(
+    film: Film, stencil: Stencil, node: tuple[int, int], way: tuple[int, int]
+) -> float:
+    """Return the difference of the fluxes through two faces of a node as if it were full."""
+    before = node[0] + way[0], node[1] + way[1]
+    return passed_on(film, stencil, node, way, True) - passed_on(film, stencil, before, way, False)
+
+
+@helper
+def passed_on(
+    film: Film, stencil: Stencil, node: tuple[int, int], way: tuple[int, int], full: bool
+) -> float:
+    """Return the flux of oil through the face downstream of a node, over the speed and dx.
+
+    ``way``: rows and columns upstream; a partly filled node counts as full if ``full``.
+    """
+    (j, i), (dj, di), (ny, nx), rate = node, way, film.p.shape, stencil.w0 - stencil.w2
+    if film.partial[j, i] and not full:
+        return rate * film.held[j, i]
+    mass, after = film.rho[j, i] * film.h[j, i], (j - dj, i - di)
+    if not (0 <= j + dj < ny and 0 <= i + di < nx):  # on the edge
+        if stencil.w2 > 0.0 and film.second[after] and not film.partial[after]:
+            return rate * 0.5 * (mass + film.rho[after] * film.h[after])
+        return rate * mass
+    if not is_second(film, node, way):
+        return rate * mass
+    west = film.rho[j + dj, i + di] * film.h[j + dj, i + di]
+    found = rate * (1.5 * mass - 0.5 * west)
+    if film.second[j, i] == MARK_THIRD_ORDER and not (film.partial[after] or film.partial[j, i]):
+        east = film.rho[after] * film.h[after]
+        found += _third_beyond(stencil, i, di) * (east - 2.0 * mass + west)
+    return found
+
+
+@helper
+def is_second(film: Film, node: tuple[int, int], way: tuple[int, int]) -> bool:
+    """Return whether a node passes on oil with second order where the surfaces spin."""
+    (j, i), (dj, di), (ny, nx) = node, way, film.p.shape
+    if not film.second[j, i] or film.partial[j + dj, i + di]:
+        return False
+    inside = 0 <= j + 2 * dj < ny and 0 <= i + 2 * di < nx
+    return not (inside and film.partial[j + 2 * dj, i + 2 * di])
 
 
 @helper

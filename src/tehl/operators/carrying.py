@@ -10,6 +10,8 @@ from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
 from tehl.estimate.ways import Way
 
+INNER = [5, 6, 9, 10]
+"""Places, in a cubic of 4 x 4 nodes, of those around."""
 SAME_WAY = 1e-9
 """Difference of two ways, in mesh widths, below which they carry a field alike."""
 
@@ -29,7 +31,7 @@ class Carrier:
         self.x, self.y, self.period = x, y, period
         self._last: tuple[Way, csr_array] | None = None
 
-    def carried(self, field: Array, way: Way) -> Array:
+    def carried(self, field: Array, way: Way, *, limited: bool = False) -> Array:
         """Return a field after a motion; beyond the edges it is as there.
 
         Parameters
@@ -38,8 +40,15 @@ class Carrier:
             Nodal values, (ny, nx).
         way : Way
             Of the motion.
+        limited : bool
+            Whether fronts of oil stay monotone: no value leaves those of the nodes around.
         """
-        return np.asarray((self.matrix(way) @ field.ravel()).reshape(field.shape))
+        matrix = self.matrix(way)
+        found = matrix @ field.ravel()
+        if limited:
+            around = field.ravel()[matrix.indices.reshape(found.size, -1)[:, INNER]]
+            found = np.clip(found, around.min(axis=1), around.max(axis=1))
+        return np.asarray(found.reshape(field.shape))
 
     def matrix(self, way: Way) -> csr_array:
         """Return the interpolation of a field before a motion, (ny nx, ny nx)."""

@@ -257,20 +257,25 @@ def _wedge_along(mass: Array, x: Array, spacing: float, order: int) -> Array:
     return found
 
 
-def turning_wedge(mass: Array, ways: Entrainment, stencil: Stencil) -> Array:
+def turning_wedge(mass: Array, ways: Entrainment, stencil: Stencil, marks: Film) -> Array:
     """Return the upstream difference of the mass rho H where the surfaces spin, zero on the edges.
 
     Parameters
     ----------
     mass : (ny, nx) array
-        rho H [-].
+        rho H, or the oil of partly filled nodes [-].
     ways : Entrainment
         Mean speeds of the surfaces.
     stencil : Stencil
         Weights of the steady operator.
+    marks : Film
+        Its ``partial`` and ``second``, if it has them, choose the orders of the fluxes.
     """
     nothing = np.zeros_like(mass)
     film = Film(nothing, mass, nothing, np.ones_like(mass), *(nothing,) * 3, **ways._asdict())
+    if marks.partial.size:
+        second = np.where(marks.partial > 0, 0, marks.second).astype(np.uint8)
+        film = film._replace(partial=marks.partial, second=second, held=mass)
     found = np.empty_like(mass)
     operator(film, stencil, found)
     return -found

@@ -209,9 +209,13 @@ def asperity_balance(level: Level) -> float:
 
 def _largest_mass_error(level: Level) -> float:
     """Return the largest mass-balance error upstream of any section, as rho H [-]."""
+    return float(np.abs(_made_upstream(level)).max())
+
+
+def _made_upstream(level: Level) -> Array:
+    """Return the oil that is made upstream of each section, as rho H, (nx,) [-]."""
     level.evaluate_residual()
-    made = np.cumsum(_line_weights(level.grid) @ level.sources.residual) * level.grid.dx
-    return float(np.abs(made).max())
+    return np.cumsum(_line_weights(level.grid) @ level.sources.residual) * level.grid.dx
 
 
 def _line_weights(grid: Grid) -> Array:
@@ -266,6 +270,10 @@ def oil_balance(level: Level, *, until: float = np.inf) -> float:
         X up to which all sections count; further downstream only the last one does.
     """
     _, passed = oil_flow(level)
+    if level.film.speed.size:  # oil enters and leaves through all sides
+        entering = float(np.maximum(passed[:, 0], 0.0).sum())
+        made = _made_upstream(level)[level.grid.x <= until]
+        return float(np.abs(made).max()) / entering
     film, stencil, mirror = secant(level.film), level.stencil, level.grid.mirror
     weights = np.ones(passed.shape[0])
     if level.grid.ny > 1:

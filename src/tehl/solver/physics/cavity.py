@@ -123,20 +123,22 @@ class Conserving(ZeroPressure):
     frozen_below, is_balanced = 0.0, True
     most_cycles, oscillates = MOST_FRONT_CYCLES, OSCILLATES
 
-    def __init__(self, layer: Array) -> None:
-        self.layer = layer  # oil that enters each line, (ny,)
+    def __init__(self, layer: Array, *, spins: bool) -> None:
+        self.layer, self.spins = layer, spins  # oil that enters each line, (ny,)
 
     def extend(self, film: Film) -> Film:
         """Return the film with the marks of partly filled nodes and of orders."""
-        partial, second = np.zeros(film.p.shape, np.uint8), np.zeros(film.p.shape, np.uint8)
-        return film._replace(partial=partial, second=second, layer=self.layer)
+        shape = film.p.shape
+        partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
+        held = np.zeros(shape if self.spins else (0, 0))
+        return film._replace(partial=partial, second=second, layer=self.layer, held=held)
 
     def mark(self, level: Wetted) -> None:
         """Mark partly filled nodes, and those that pass on oil with second order."""
         if level.stencil.conserves != STEADILY or not level.is_finest:
             return
         film, stencil = level.film, level.stencil
-        scratch = np.empty((1, film.p.shape[1]))
+        scratch = np.empty(film.p.shape if self.spins else (1, film.p.shape[1]))
         cavities.mark_partial(film, stencil, level.sources.reynolds, scratch, level.smoother.ends)
         if not self.keeps_orders:
             set_orders(level)
@@ -170,6 +172,8 @@ class Conserving(ZeroPressure):
         """Inject the marks of partly filled nodes."""
         if fine.stencil.conserves == STEADILY:
             coarse.film.partial[:] = injected(fine.film.partial, coarse.film.partial)
+            if self.spins:
+                coarse.film.held[:] = injected(fine.film.held, coarse.film.held)
             cavities.mark_second_order(coarse.film, coarse.stencil)
 
     def restrict(self, fine: Wetted, coarse: Wetted) -> None:
@@ -234,4 +238,6 @@ def secant(film: Film) -> Film:
 def cavity_of(equations: Equations) -> ZeroPressure:
     """Return the cavities of a level by its equations."""
     layer = equations.outside.layer
-    return ZeroPressure() if layer is None else Conserving(layer)
+    if layer is None:
+        return ZeroPressure()
+    return Conserving(layer, spins=equations.entrainment.speed.size > 0)

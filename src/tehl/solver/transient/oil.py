@@ -139,9 +139,11 @@ class TurningOil(Oil):
 
     def __init__(self, level: Level, stride: int, order: int, schedule: Schedule) -> None:
         self.carrier = carrier_of(level.grid, level.equations.groups.ellipticity)
-        self.ways = level.equations.entrainment
-        self.weights = level.stencil if order > 2 else of_second_order(level.stencil)
-        self.first = schedule.moments[0].speed
+        self.ways, self.first = level.equations.entrainment, schedule.moments[0].speed
+        self.weights = level.balance if order > 2 else of_second_order(level.balance)
+        partial, second = level.film.partial.copy(), level.film.second.copy()
+        self.marks = level.film._replace(partial=partial, second=second)
+        self.limited = level.stencil.conserves > 0
         super().__init__(level, stride, order, schedule)
 
     def brought(self, number: int) -> Array:
@@ -149,7 +151,7 @@ class TurningOil(Oil):
         passed, speed = self.schedule.passed(number), self.schedule.moments[number].speed
         assert passed is not None  # no surface that spins moves along x alone
         last, before = (
-            part * self.carrier.carried(mass - self.steady, way)
+            part * self.carrier.carried(mass - self.steady, way, limited=self.limited)
             for part, mass, way in zip((2.0, 0.5), (self.now, self.before), passed, strict=True)
         )
         wedge = self._wedge_at(speed)
@@ -165,7 +167,7 @@ class TurningOil(Oil):
     def _wedge_at(self, speed: float) -> Array:
         """Return the steady wedge at an entrainment speed over that of the contact."""
         ways = self.ways._replace(speed=self.ways.speed + (speed - self.first))
-        return turning_wedge(self.steady, ways, self.weights)
+        return turning_wedge(self.steady, ways, self.weights, self.marks)
 
 
 def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
