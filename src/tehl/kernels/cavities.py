@@ -23,7 +23,8 @@ from tehl.kernels.reynolds import (
 def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array, ends: IntArray) -> None:
     """Mark cavitated nodes that stay partly filled: less oil comes than a full one would pass on.
 
-    ``scratch`` is (1, nx), or (ny, nx) where the surfaces spin; nodes from ``ends[j]`` of line j on keep their mark.
+    ``scratch`` is (1, nx), or (ny, nx) where the surfaces spin; nodes from ``ends[j]`` of line j on
+    keep their mark.
     """
     film, rhs, scratch, ends = raw((film, rhs, scratch, ends))
     if film.speed.shape[0] > 0:
@@ -97,6 +98,16 @@ def _flow_from(film: Film, stencil: Stencil, j: int, i: int, way: int) -> float:
     return 0.5 * stencil.cx * eps * (film.p[j, i + way] - film.p[j, i])
 
 
+@helper
+def _begins(film: Film, j: int, i: int) -> bool:
+    """Return whether a film may begin at a node: beside a partly filled one that is upstream."""
+    partial = film.partial
+    found = partial[j, i - 1] > 0
+    if film.speed.shape[0] > 0:
+        found = found or partial[j, i + 1] + partial[j - 1, i] + partial[j + 1, i] > 0
+    return found
+
+
 @kernel
 def keep_to_fronts(film: Film, mirror: int, width: int, frozen: FlagArray, ends: IntArray) -> None:
     """Freeze the nodes farther than ``width`` nodes from where a film begins.
@@ -111,10 +122,7 @@ def keep_to_fronts(film: Film, mirror: int, width: int, frozen: FlagArray, ends:
             frozen[j, i] = 1
     for j in range(0 if mirror else 1, inner_end(ny, mirror)):
         for i in range(1, nx - 1):
-            begins = partial[j, i - 1] > 0
-            if film.speed.shape[0] > 0:
-                begins = begins or partial[j, i + 1] + partial[j - 1, i] + partial[j + 1, i] > 0
-            if partial[j, i] > 0 or not begins:
+            if partial[j, i] > 0 or not _begins(film, j, i):
                 continue
             end = min(i + width + 1, nx - 1)
             for row in range(max(j - width, 0), min(j + width + 1, ny)):
@@ -130,7 +138,7 @@ def mark_second_order(film: Film, stencil: Stencil) -> None:
     With a third one downstream they pass on oil with third order, if the wedge is of that.
     """
     film, _ = raw((film, film.p))
-    partial, second, order = film.partial, film.second, 1 if stencil.w2 == 0.0 else 2
+    second, order = film.second, 1 if stencil.w2 == 0.0 else 2
     order = 3 if stencil.third > 0.0 else order
     ny, nx = film.p.shape
     if film.speed.shape[0] > 0:  # each direction has its own nodes upstream
@@ -139,14 +147,21 @@ def mark_second_order(film: Film, stencil: Stencil) -> None:
                 second[j, i] = order - 1
         return
     for j in range(ny):
-        second[j, 0] = 0
-        second[j, 1] = order > 1 and not partial[j, 0]
-        for i in range(2, nx):
-            second[j, i] = order > 1 and not (partial[j, i - 1] or partial[j, i - 2])
-        if order > 2:
-            for i in range(2, nx - 1):
-                if second[j, i] and not (partial[j, i] or partial[j, i + 1]):
-                    second[j, i] = MARK_THIRD_ORDER
+        _mark_line(film, j, order)
+
+
+@helper
+def _mark_line(film: Film, j: int, order: int) -> None:
+    """Mark the nodes of a line."""
+    partial, second, nx = film.partial, film.second, film.p.shape[1]
+    second[j, 0] = 0
+    second[j, 1] = order > 1 and not partial[j, 0]
+    for i in range(2, nx):
+        second[j, i] = order > 1 and not (partial[j, i - 1] or partial[j, i - 2])
+    if order > 2:
+        for i in range(2, nx - 1):
+            if second[j, i] and not (partial[j, i] or partial[j, i + 1]):
+                second[j, i] = MARK_THIRD_ORDER
 
 
 @kernel
@@ -162,12 +177,18 @@ def oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -> None:
         last node and on edge lines.
     """
     film, held, passed = raw((film, held, passed))
-    ny, nx = film.p.shape
-    rate = stencil.w0 - stencil.w2
     clear(passed)
     if film.speed.shape[0] > 0:
         _curved_oil_flow(film, stencil, held, passed)
-        return
+    else:
+        _straight_oil_flow(film, stencil, held, passed)
+
+
+@helper
+def _straight_oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -> None:
+    """Write it line by line."""
+    ny, nx = film.p.shape
+    rate = stencil.w0 - stencil.w2
     for j in range(ny):
         for i in range(nx):
             held[j, i] = film.rho[j, i] * film.h[j, i]

@@ -304,7 +304,7 @@ def _load_curved(
 def _curved_weights(
     film: Film, stencil: Stencil, node: Span, way: Span
 ) -> tuple[float, float, float]:
-    """Return the weights of the oil flux at a node; ``way``: columns upstream, place in the flow."""
+    """Return the weights of the oil flux at a node; ``way``: columns upstream, and its place."""
     (j, i), (di, k) = node, way
     far = i + 2 * di if k > 1 else i + di
     partial = film.partial[j, i] > 0, film.partial[j, i + di] > 0, film.partial[j, far] > 0

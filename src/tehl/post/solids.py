@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tehl.base.typing import Array
-from tehl.post.traction import rubbing_motion
+from tehl.post.traction import rubbing_moment, rubbing_motion
 from tehl.result.solution import Solution
 
 
@@ -31,6 +31,9 @@ class SolidContact:
     None where a Newtonian film would transmit more than an oil can between surfaces that touch."""
     power_boundary: float
     """Heat of the solids that rub [W]."""
+    drilling_boundary: float | None
+    """Moment of their friction about the normal through the centre, on surface 1; None without spin
+    [N m]."""
     balance: float
     """Mass-balance error of the film, over the oil that enters [-]."""
 
@@ -70,4 +73,5 @@ def carried_by_solids(
         "pressure_max": float(np.max(pressure + result.pressure)),
         "friction_boundary": part * friction * share,
         "power_boundary": friction * share * result.load * speed,
+        "drilling_boundary": rubbing_moment(result, friction * load) if share else None,
     }

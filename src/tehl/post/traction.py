@@ -241,6 +241,25 @@ def rubbing_motion(result: Solution, carried: Array) -> tuple[float, float]:
     return math.hypot(*forces), speed
 
 
+def rubbing_moment(result: Solution, friction: Array) -> float | None:
+    """Return the moment of solids that rub on surface 1, about the normal at the centre [N m].
+
+    None without spin.
+
+    Parameters
+    ----------
+    result : Solution
+        With the motion of its contact.
+    friction : (ny, nx) array
+        Friction of each node [N], against the local sliding.
+    """
+    motion = result.problem.motion
+    if motion.spin_1 == 0.0 == motion.spin_2:
+        return None
+    along, across = sliding_direction(result)
+    return float((friction * (result.y[:, None] * along - result.x * across)).sum())
+
+
 def sliding_direction(result: Solution) -> tuple[Array, Array]:
     """Return the direction of u_1 - u_2, (ny, nx) along x and y; zero where nothing slides."""
     along, across = result.problem.motion.sliding_field(result.x, result.y[:, None])

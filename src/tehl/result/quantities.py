@@ -316,7 +316,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         "load_sharing.separation_ratio",
         words={"axis": "separation of the mean planes over σ"},
     ),
-    *plain("load_sharing", "power_boundary_w balance"),
+    *plain("load_sharing", "power_boundary_w drilling_boundary_n_m balance"),
     *plain("load_sharing.spots", "number radius_m pressure_pa elastic_pressure_pa flash_rise_k"),
     Quantity(
         "touching.share",
@@ -332,6 +332,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity("touching.friction_boundary", if_known("friction_boundary")),
     *plain("touching", "area_m2 area_part contact_pressure_max_pa pressure_max_pa"),
     Quantity("touching.power_boundary_w", if_known("power_boundary")),
+    Quantity("touching.drilling_boundary_n_m", if_known("drilling_boundary")),
     *plain("touching", "balance"),
     *plain("touching.patches", "number area_mean_m2 area_largest_m2 pressure_mean_pa"),
     *plain("touching.patches", "pressure_max_pa cells"),
