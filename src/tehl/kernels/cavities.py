@@ -9,6 +9,7 @@ from tehl.kernels.reynolds import (
     MARK_THIRD_ORDER,
     beyond,
     clear,
+    flow_from,
     inflow,
     inner_end,
     line_operator,
@@ -68,6 +69,7 @@ def _mark_curved(film: Film, stencil: Stencil, rhs: Array, scratch: Array, ends:
 def fill(film: Film, stencil: Stencil) -> None:
     """Fill the partly filled nodes with the oil that flows in, downstream from node to node.
 
+    Without the flow from a film that is downstream along x, of which a part comes back at once.
     Rows that move against x, and columns against y, the other way round; both lie beside each
     other, so that a second time brings what has come from there.
     """
@@ -86,16 +88,9 @@ def fill(film: Film, stencil: Stencil) -> None:
                 inflow_y = passed_on(film, stencil, (j + across[0], i), across, False)
                 gained, _ = _flow_into(film, stencil, j, i)
                 if not film.partial[j, i - along[1]]:
-                    gained -= _flow_from(film, stencil, j, i, -along[1])
+                    gained -= flow_from(film, stencil, j, i, -along[1])
                 total = abs(u) * inflow_x + abs(v) * inflow_y + gained
                 film.held[j, i] = total / (rate * max(abs(u) + abs(v), 1e-12))
-
-
-@helper
-def _flow_from(film: Film, stencil: Stencil, j: int, i: int, way: int) -> float:
-    """Return the pressure flow into a node from the next one along x, east (1) or west (-1)."""
-    eps = both_x(stencil, film.eps_x[j, min(i, i + way)], film.eps_x[j, max(i, i + way)])
-    return 0.5 * stencil.cx * eps * (film.p[j, i + way] - film.p[j, i])
 
 
 @helper
@@ -225,16 +220,16 @@ def _curved_oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -
             after = i + 1 if u > 0.0 else i - 1
             inside = 0 < j < ny - 1 and 0 < i < nx - 1
             if inside and film.partial[j, i] and not film.partial[j, after]:
-                comes_back = _flow_from(film, stencil, j, i, after - i)
+                comes_back = flow_from(film, stencil, j, i, after - i)
                 held[j, i] += comes_back / (rate * (abs(u) + abs(film.drift[i])))
     for j in range(1, ny - 1):
         u = film.speed[j]
         for i in range(nx - 1):
             from_, way = (i, (0, -1)) if u > 0.0 else (i + 1, (0, 1))
             moved = abs(u) * passed_on(film, stencil, (j, from_), way, False) / rate
-            pressed = 0.0
-            if not (film.partial[j, from_] and not film.partial[j, 2 * i + 1 - from_]):
-                pressed = _flow_from(film, stencil, j, i, 1) / rate
+            pressed = flow_from(film, stencil, j, i, 1) / rate
+            if film.partial[j, from_] and not film.partial[j, 2 * i + 1 - from_]:
+                pressed *= 1.0 - abs(u) / (abs(u) + abs(film.drift[from_]))
             passed[j, i] = (moved if u > 0.0 else -moved) - pressed
 
 

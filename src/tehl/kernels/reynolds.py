@@ -236,11 +236,10 @@ def _subtract_curved_flux(
 ) -> None:
     """Subtract the same of surfaces that spin: partly filled nodes pass on the oil that they hold.
 
-    It comes from both sides upstream (`tehl.kernels.cavities.fill`). No pressure flow leaves a film
-    upstream along x.
+    It comes from both sides upstream (`tehl.kernels.cavities.fill`). Of the pressure flow that
+    leaves a film upstream along x, the part u/(u + v) comes back at once.
     """
-    p, eps_x, half_x, (row, end) = film.p, film.eps_x, 0.5 * stencil.cx, place
-    u = film.speed[j]
+    (row, end), u = place, film.speed[j]
     back = -1 if u > 0.0 else 1
     for i in range(1, end):
         v = film.drift[i]
@@ -248,8 +247,15 @@ def _subtract_curved_flux(
         wedge += abs(v) * _flux_difference(film, stencil, (j, i), (-1 if v > 0.0 else 1, 0))
         out[row, i] -= wedge
         if film.partial[j, i + back] and not film.partial[j, i]:
-            face = half_x * both_x(stencil, eps_x[j, min(i, i + back)], eps_x[j, max(i, i + back)])
-            out[row, i] += face * (p[j, i] - p[j, i + back])
+            part = abs(u) / (abs(u) + abs(film.drift[i + back]))
+            out[row, i] += part * flow_from(film, stencil, j, i + back, -back)
+
+
+@helper
+def flow_from(film: Film, stencil: Stencil, j: int, i: int, way: int) -> float:
+    """Return the pressure flow into a node from the next one along x, east (1) or west (-1)."""
+    eps = both_x(stencil, film.eps_x[j, min(i, i + way)], film.eps_x[j, max(i, i + way)])
+    return 0.5 * stencil.cx * eps * (film.p[j, i + way] - film.p[j, i])
 
 
 @helper
@@ -271,7 +277,13 @@ def passed_on(
     """
     (j, i), (dj, di), (ny, nx), rate = node, way, film.p.shape, stencil.w0 - stencil.w2
     if film.partial[j, i] and not full:
-        return rate * film.held[j, i]
+        found = rate * film.held[j, i]
+        ahead = 1 if film.speed[j] > 0.0 else -1
+        if di == 0 and 0 < i < nx - 1 and not film.partial[j, i + ahead]:
+            # of what the film behind along x brings, the rest comes back to that film
+            size = abs(film.speed[j]) + abs(film.drift[i])
+            found += flow_from(film, stencil, j, i, ahead) / size
+        return found
     mass, after = film.rho[j, i] * film.h[j, i], (j - dj, i - di)
     if not (0 <= j + dj < ny and 0 <= i + di < nx):  # on the edge
         if stencil.w2 > 0.0 and film.second[after] and not film.partial[after]:
