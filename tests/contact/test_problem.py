@@ -372,7 +372,11 @@ def test_velocities_that_are_stated_twice_or_make_no_entrainment_are_refused(sta
 @pytest.mark.parametrize(
     ("motion", "tables", "why"),
     [
-        ({"sliding_angle": 1.0}, {"transient": {"duration": 1e-3}}, "sliding_angle and transient"),
+        (
+            {"sliding_angle": 1.0},
+            {"supply": {"layer": 1e-6, "passes": 3, "track": 0.2}},
+            "return along x alone",
+        ),
         ({"spin_1": 900.0}, {"thermal": {}}, r"computed up to [\d.e+]+ rad/s, 0.8 u/a_y"),
     ],
 )

@@ -82,25 +82,12 @@ def check_turning(problem: PointContact) -> None:
 
 
 def check_spin(problem: PointContact) -> None:
-    """Check that nothing follows oil or heat along x alone where the mean motion spins."""
-    if problem.contact.spin_1 + problem.contact.spin_2 == 0.0:
-        return
-    excluded = {
-        f'contact.type = "{problem.contact.type}"': (
-            problem.contact.has_lines,
-            SPIN_OF_LINES,
-        ),
-        "dynamics": (
-            problem.dynamics is not None,
-            "so far moving films are linearised along x alone",
-        ),
-    }
-    for name, (is_stated, why) in excluded.items():
-        if is_stated:
-            raise ValueError(
-                f"contact.spin_1, spin_2 and {name} exclude each other if the spins are not "
-                f"opposite: {why}"
-            )
+    """Check that nothing follows oil along x alone where the mean motion spins."""
+    if problem.contact.spin_1 + problem.contact.spin_2 != 0.0 and problem.dynamics is not None:
+        raise ValueError(
+            "contact.spin_1, spin_2 and dynamics exclude each other if the spins are not opposite: "
+            "so far moving films are linearised along x alone"
+        )
 
 
 def check_line(problem: PointContact) -> None:
