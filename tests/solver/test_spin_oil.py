@@ -119,7 +119,7 @@ def test_the_heat_of_a_contact_that_spins_is_its_friction(monkeypatch):
 def test_a_slow_change_follows_the_steady_films(other):
     """To the errors of both schemes on these nodes: the first film keeps its wedge, others do not.
 
-    A plain starved film errs by 0.13 %.
+    The starved film differs by 0.7 % here and 0.4 % on 129 nodes.
     """
     slow, there = (
         solve_transient(
