@@ -215,35 +215,6 @@ def test_lines_crowd_at_the_ends_and_resolve_the_film_there(logarithmic):
     assert found.errors.minimum < 0.08  # uniform lines err by a third
 
 
-@pytest.mark.parametrize(
-    ("sources", "minimum", "traction"),
-    [(None, 0.01765, -0.05358), ("line", 0.01662, -0.04883), ("full", 0.01669, -0.04875)],
-)
-def test_lines_of_thinning_and_heated_films_crowd_too(sources, minimum, traction):
-    """On uniform lines the minimum is 0.025 (heated 0.023); values are those of 257 x 129 nodes."""
-    oil = {"name": "mineral-oil", "shear": {"law": "eyring", "stress": "5 MPa"}}
-    heat = {"temperature": "40 degC", "sources": sources} if sources else None
-    stated = {"slide_roll_ratio": 0.3, "lubricant": oil, "thermal": heat}
-    found = tehl.solve(roller(profile=LOGARITHMIC, **stated), Options(points=(129, 65)))
-    assert found.scaled.y[-1] - found.scaled.y[-2] < 0.003
-    # at the ends oil does not flow along y, and does not thin by it: one strategy does
-    assert sources == "full" or {one.smoother for one in found.history} == {"broad"}
-    assert found.film_scaled.minimum == pytest.approx(minimum, rel=0.02)
-    assert found.traction.mid_film == pytest.approx(traction, rel=2e-3)
-    if sources:
-        assert found.heat.balance.error == pytest.approx(0.0, abs=1e-3)
-
-
-def test_lines_crowd_beside_asperities_too():
-    """On uniform lines the minimum is 0.0420 on 129 x 65 and on 257 x 129 nodes."""
-    law = {"model": "greenwood-tripp", "rms": "0.3 um", "summit_radius": "20 um"}
-    mixed = roller(profile=LOGARITHMIC, asperities={**law, "summit_density": 1e10})
-    found = tehl.solve(mixed, Options(points=(129, 65)))
-    assert found.film_scaled.minimum == pytest.approx(0.0377, rel=0.01)  # 257 x 129 nodes
-    assert found.load_sharing.share == pytest.approx(0.0496, rel=0.01)
-    assert found.load_sharing.balance == pytest.approx(0.0, abs=1e-4)
-
-
 def test_rough_rollers_have_a_wedge_of_third_order():
     """With one of second order the middle is 0.0225, 20 % thinner, on these nodes."""
     wave = {"type": "wave", "amplitude": "1 nm", "wavelength": "0.2 mm"}
@@ -447,22 +418,6 @@ def test_lines_stay_where_the_load_reaches_the_ends_of_a_roller():
     )
     straight = replace(grid, crowding=0.0)
     assert at_loaded_ends(straight, ScaledProblem.of(roller()).groups) is straight
-
-
-@pytest.mark.parametrize("tilt", [0.0, 1e-4])
-def test_cavities_between_lines_that_crowd_conserve_oil(tilt):
-    short = roller(20.0, length="3 mm", profile=STANDARD, tilt=tilt)
-    conserving = {"cavitation": {"model": "conserving"}}
-    problem = case_from_tables(short.model_dump(exclude_none=True) | conserving)[0]
-    options = Options(points=(129, 65), wedge_order=3, accuracy="tight")
-    found = tehl.solve(problem, options)
-    steps = np.diff(found.scaled.y)
-    assert steps.max() > 5.0 * steps.min()
-    assert found.supplied.balance < 1e-8
-    # where oil leaves no cavity before the exit, they change nothing
-    plain = tehl.solve(short, options)
-    assert found.film.central == pytest.approx(plain.film.central, rel=1e-4)
-    assert found.film.minimum == pytest.approx(plain.film.minimum, rel=2e-3)
 
 
 def test_the_first_strategy_solves_the_first_grid_of_a_tilted_roller_under_load():

@@ -112,16 +112,12 @@ def _of_one_row(problem: ContactProblem, options: Options) -> Options:
 def crowds_at_ends(problem: ContactProblem) -> bool:
     """Return whether the lines of the grid crowd at the ends of a roller.
 
-    Heights, time steps, dynamics and paths of surfaces across lines need uniform ones, and the film
-    at the sharp ends of a straight roller has no limit to resolve: only a flooded film under a
-    profile, smooth on the mesh and steady, has crowded ones. It may thin by shear, cavitate, share
-    the load with asperities, and be heated by sliding along x.
+    Heights, time steps and dynamics need uniform ones, and the film at the sharp ends of a straight
+    roller has no limit to resolve: only a film under a profile, smooth on the mesh and steady, has
+    crowded ones.
     """
-    others = (problem.supply, problem.dynamics)
     is_profiled = problem.contact.profile is not None
-    if not is_profiled or any(one is not None for one in others):
-        return False
-    return _is_smooth(problem) and (problem.thermal is None or problem.motion.is_plain)
+    return is_profiled and problem.dynamics is None and _is_smooth(problem)
 
 
 def _is_smooth(problem: ContactProblem) -> bool:

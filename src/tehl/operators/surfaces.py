@@ -214,8 +214,9 @@ class Solids:
         )
         x, y = grid.x[:: self.stride], (groups.ellipticity * grid.y if grid.ny > 1 else grid.y)
         self.slowness = [side.slowness(y) for side in both]
+        places = np.linspace(y[0], y[-1], shape[0]) if self.between else y[:: self.stride]
         self.streams = [
-            _streams(x, y[:: self.stride], side, factor, full=source is not None)
+            _streams(x, places, side, factor, full=source is not None)
             for side, factor, source in zip(both, self.factors, self.sources, strict=True)
         ]
         still = np.zeros(grid.shape[::-1])
