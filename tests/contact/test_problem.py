@@ -109,6 +109,17 @@ def test_a_thermal_table_makes_a_heat_problem():
     assert hot({"scheme": "uniform", "layers": 41}).heat.layers == 41  # type: ignore[union-attr]
 
 
+def test_hot_inlets_have_more_layers():
+    # 9 (loading / 5)^(1/4), rounded up to 4 n + 1
+    loading = hot().thermal_loading / 1.5**2  # type: ignore[operator]
+    found = []
+    for wanted in (4.9, 20.0, 57.0, 2000.0):
+        speed = math.sqrt(wanted / loading)
+        heat = hot(contact={"radius": 0.01, "load": 50.0, "entrainment_speed": speed}).heat
+        found.append(heat.layers)  # type: ignore[union-attr]
+    assert found == [9, 13, 17, 21]
+
+
 def test_solids_may_be_warmer_than_the_oil():
     warm = {"material": "steel", "temperature": "80 degC"}
     heat = hot({"temperature": "60 degC"}, surface_1=warm).heat

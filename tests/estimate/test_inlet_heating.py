@@ -10,7 +10,6 @@ from tehl.estimate.inlet_heating import (
     inlet_factors,
     inlet_heating_factor,
     murch_wilson,
-    thermal_loading,
     wilson_sheu,
 )
 from tests.cases import ball_tables
@@ -73,5 +72,5 @@ def test_the_thermal_loading_is_taken_at_the_inlet():
     cold = ContactProblem.model_validate(ball_tables(lubricant="mineral-oil"))
     oil = {"name": "mineral-oil", "temperature": "80 degC"}
     warm = ContactProblem.model_validate(ball_tables(lubricant=oil))
-    assert thermal_loading(cold) == pytest.approx(0.04 * 0.042 * 1.5**2 / 0.14)
-    assert thermal_loading(warm) < 0.3 * thermal_loading(cold)  # type: ignore[operator]
+    assert cold.thermal_loading == pytest.approx(0.04 * 0.042 * 1.5**2 / 0.14)
+    assert warm.thermal_loading < 0.3 * cold.thermal_loading  # type: ignore[operator]

@@ -9,7 +9,7 @@ from tehl.base.table import Table
 from tehl.contact.bodies import Motion, Radii, reduced_radii, reduced_radius
 from tehl.contact.boundary_contact import ContactFilm
 from tehl.contact.dynamics import Dynamics
-from tehl.contact.heat import FilmEnergy, Thermal, rubbing_parts
+from tehl.contact.heat import HOT_LOADING, FilmEnergy, Thermal, rubbing_parts
 from tehl.contact.hertz import HertzContact
 from tehl.contact.materials import reduced_modulus
 from tehl.contact.roller import Roller
@@ -121,6 +121,26 @@ class LubricatedPair(Table):
     def temperature_coefficient(self) -> float:
         """Return -d ln eta / dT at ambient pressure and inlet temperature [1/K]."""
         return self.lubricant.viscosity.temperature_coefficient_at(self.inlet_temperature)
+
+    @property
+    def thermal_loading(self) -> float | None:
+        """Return the thermal loading parameter ``eta_0 b u_m^2 / k`` at the inlet [-].
+
+        b is -d(ln eta)/dT. None if the case states no conductivity or no temperature coefficient of
+        the oil.
+        """
+        coefficient, conductivity = (
+            self.temperature_coefficient,
+            self.lubricant.ambient_conductivity,
+        )
+        if conductivity is None or not coefficient > 0:
+            return None
+        return self.ambient_viscosity * coefficient * self.entrainment_speed**2 / conductivity
+
+    @property
+    def has_hot_inlet(self) -> bool:
+        """Whether the oil that flows back in the inlet is much hotter than the oil that enters."""
+        return self.thermal is not None and (self.thermal_loading or 0.0) > HOT_LOADING
 
     @property
     def inlet_temperature(self) -> float:
@@ -309,7 +329,7 @@ class PointContact(LubricatedPair):
             bulk_1=inlet if first is None else first,
             bulk_2=inlet if second is None else second,
             reynolds=self.thermal.reynolds,
-            layers=self.thermal.nodes,
+            layers=self.thermal.nodes(self.thermal_loading or 0.0),
             scheme=self.thermal.scheme,
             sources="line" if self.transient is not None else self.thermal.sources,
         )

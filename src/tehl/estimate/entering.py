@@ -7,7 +7,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.contact.options import Domain
 from tehl.estimate.film_formulas import expected_central_film
-from tehl.estimate.inlet_heating import thermal_loading, wilson_sheu
+from tehl.estimate.inlet_heating import wilson_sheu
 from tehl.estimate.scaling import ScaledProblem
 
 THIN_FILM_ERROR, THICK_FILM_ERROR = 0.008, 0.8
@@ -89,7 +89,7 @@ def body_contrast(scaled: ScaledProblem) -> float:
 
 def _reverse_flow_error(scaled: ScaledProblem, domain: Domain) -> float:
     """Return the error by the heat of oil that flows back upstream of the domain, as if rolling."""
-    loading = thermal_loading(scaled.problem) if scaled.problem.thermal is not None else None
+    loading = scaled.problem.thermal_loading if scaled.problem.thermal is not None else None
     if loading is None:
         return 0.0
     distances = -domain.x[0] / math.sqrt(2.0 * _film(scaled)) / 3.3

@@ -29,19 +29,6 @@ class InletFactor:
     """Limits of validity that the contact exceeds."""
 
 
-def thermal_loading(problem: ContactProblem) -> float | None:
-    """Return the thermal loading parameter ``eta_0 b u_m^2 / k`` at the inlet [-].
-
-    b is -d(ln eta)/dT. None if the case states no conductivity or no temperature coefficient of the
-    oil.
-    """
-    coefficient = problem.temperature_coefficient
-    conductivity = problem.lubricant.ambient_conductivity
-    if conductivity is None or not coefficient > 0:
-        return None
-    return problem.ambient_viscosity * coefficient * problem.entrainment_speed**2 / conductivity
-
-
 def murch_wilson(loading: float) -> float:
     """Return the factor of Murch and Wilson [2]_ on the film of pure rolling [-]."""
     return 1.0 / (1.0 + 0.254 * loading**0.62)
@@ -53,7 +40,7 @@ def wilson_sheu(loading: float, slide_roll_ratio: float) -> float:
     Parameters
     ----------
     loading : float
-        Thermal loading of the inlet, `thermal_loading` [-].
+        Thermal loading of the inlet, `ContactProblem.thermal_loading` [-].
     slide_roll_ratio : float
         (u_1 - u_2)/u_m [-]; its sign has no effect.
     """
@@ -79,7 +66,7 @@ def inlet_factors(problem: ContactProblem) -> tuple[InletFactor, ...]:
 
     The formulas are fits to rolling contacts with moderate sliding, accurate to 10 to 15 %.
     """
-    loading = thermal_loading(problem)
+    loading = problem.thermal_loading
     if loading is None:
         return ()
     slip = problem.slide_roll_ratio
@@ -114,7 +101,7 @@ def inlet_heating_factor(problem: ContactProblem) -> float | None:
     None if the case states no conductivity or no temperature coefficient of the oil, or if the
     surfaces move in opposite directions.
     """
-    loading = thermal_loading(problem)
+    loading = problem.thermal_loading
     if loading is None or abs(problem.slide_roll_ratio) > 2.0:
         return None
     return wilson_sheu(loading, problem.slide_roll_ratio)

@@ -54,7 +54,8 @@ def needed_memory(options: Options, problem: ContactProblem | None = None) -> fl
 def _bytes_per_node(problem: ContactProblem | None) -> float:
     if problem is None or not problem.is_coupled:
         return BYTES_PER_NODE
-    heated, layers = (BYTES_HEATED, problem.thermal.nodes) if problem.thermal else (0, USUAL_LAYERS)
+    heat = problem.heat
+    heated, layers = (0, USUAL_LAYERS) if heat is None else (BYTES_HEATED, heat.layers)
     return BYTES_PER_NODE + BYTES_COUPLED + heated + BYTES_PER_LAYER * layers
 
 

@@ -22,7 +22,7 @@ from tehl.estimate.film_formulas import (
     regime,
 )
 from tehl.estimate.grid import Grid
-from tehl.estimate.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
+from tehl.estimate.inlet_heating import inlet_factors, inlet_heating_factor
 from tehl.estimate.memory import available_memory, needed_memory
 from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
@@ -287,7 +287,7 @@ def as_text(case: Explanation) -> str:
         inlet_factors=inlet_factors(problem),
         least_rise=LEAST_RISE,
         least_traction=LEAST_TRACTION,
-        loading=thermal_loading(problem),
+        loading=problem.thermal_loading,
         regime=regime(case.scaled.groups),
         resolves=RESOLVES,
         uncertainty=UNCERTAINTY,
@@ -324,7 +324,7 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         "solid_peclet": list(case.peclet),
         "inlet_heating_factor": inlet_heating_factor(problem),
         "inlet_factors": [asdict(factor) for factor in inlet_factors(problem)],
-        "thermal_loading": thermal_loading(problem),
+        "thermal_loading": problem.thermal_loading,
         "bodies": bodies,
         "thermal_resistances": list(case.resistances),
         "expected_heat": heat,

@@ -325,9 +325,9 @@ def _about_heat(problem: ContactProblem, heat: ExpectedHeat | None) -> Iterator[
     if thermal is None:
         return
     # a temperature profile is under-resolved
-    if thermal.scheme == "uniform" and thermal.nodes < 15:
+    if thermal.scheme == "uniform" and thermal.layers is not None and thermal.layers < 15:
         yield (
-            f"thermal.layers = {thermal.nodes}: too few for uniform layers; take "
+            f"thermal.layers = {thermal.layers}: too few for uniform layers; take "
             f'{LAYERS["uniform"]} or more, or scheme = "chebyshev"'
         )
     for name, peclet in zip(("surface_1", "surface_2"), problem.solid_peclet, strict=True):

@@ -440,6 +440,6 @@ def _seconds(case: Case) -> float:
 
 
 def _field_bytes(case: Case) -> int:
-    thermal = case.problem.thermal
-    layers = 0 if thermal is None else thermal.nodes + 2
+    heat = case.problem.heat
+    layers = 0 if heat is None else heat.layers + 2
     return (_FIELD_BYTES + _LAYER_BYTES * layers) * math.prod(_plan(case).shape) + _FILE_BYTES

@@ -90,8 +90,9 @@ class Coupling:
         self.film = HeatedFilm(scaled) if is_coupled else None
         self.wedge_order = options.order
         counter_moving = min(scaled.moment.speeds) <= 0.0
-        # without counter-moving surfaces the backflow of the coarser grids is accurate enough
-        self.thorough = options.accuracy == "tight" or counter_moving
+        # elsewhere the backflow of the coarser grids is accurate enough
+        flows_back = counter_moving or scaled.problem.has_hot_inlet
+        self.thorough = options.accuracy == "tight" or flows_back
         self.sweeps_left = RAMP if slide_in_steps else 0
         self.lag = Lag(damping if is_coupled else 1.0, heats=scaled.problem.thermal is not None)
         self.state: FilmState | None = None  # on the last level that was started
