@@ -128,9 +128,9 @@ def test_other_nodes_are_tried_before_a_hint(monkeypatch):
     real, tried = steady.try_strategies, []
 
     def fails_as_planned(problem, options, **others):
-        tried.append(options.points)
+        tried.append(others.get("nodes"))
         attempt, result = real(problem, options, **others)
-        if options.points == "auto":
+        if tried[-1] is None:
             status = Status(kind="diverged", cause="diverged", message="x")
             result = replace(result, status=status)
         return attempt, result
@@ -138,7 +138,8 @@ def test_other_nodes_are_tried_before_a_hint(monkeypatch):
     monkeypatch.setattr(steady, "try_strategies", fails_as_planned)
     result = solve(moes(20.0), Options())
     assert result.status.converged
-    assert tried[0] == "auto"
+    assert tried[0] is None
+    assert result.options.points == "auto"
     assert result.scaled.x.size > solve_size(20.0)
     assert max(result.errors.central, result.errors.minimum) <= 0.02
 
@@ -260,6 +261,32 @@ def test_the_law_of_roelands_is_tried_in_place_of_that_of_barus():
     assert [(one.law, one.alpha) for one in tried] == [("roelands", 2e-8)]
 
 
+@pytest.mark.parametrize(("errors", "number"), [((0.04, 0.03), 1), ((0.03, 0.04), 0), ((), None)])
+def test_the_best_film_from_other_nodes_on_is_kept(errors, number):
+    """Beside it a coarser one that converged on the way was far off (M = 245,000)."""
+    failed = replace(failure(100.0, points=33).result, options=Options())
+    failed = failed.but(status=Status(kind="stalled", cause="stalled", message="x"))
+    open_status = Status(kind="not_converged", cause="error_not_reached", message="x")
+    bars = solve(moes(20.0), Options(points=65)).errors
+    films = [
+        failed.but(
+            status=open_status,
+            errors=replace(bars, discretisation_central=one, discretisation_minimum=one),
+        )
+        for one in errors
+    ]
+    left = iter(films)
+
+    def solved(_: tuple[int, int], __: float):
+        try:
+            return next(left)
+        except StopIteration:
+            raise InputError("no memory") from None
+
+    found = solved_on_other_nodes(failed, solved, SILENT, math.inf)
+    assert found is (None if number is None else films[number])
+
+
 @pytest.mark.parametrize("seconds", [0.5, 30.0])
 def test_other_nodes_keep_the_lines_of_a_roller_and_need_a_part_of_the_time(seconds):
     failed = replace(failure(100.0, points=33).result, problem=roller(50.0), options=Options())
@@ -267,8 +294,8 @@ def test_other_nodes_keep_the_lines_of_a_roller_and_need_a_part_of_the_time(seco
     failed = failed.but(cost=replace(failed.cost, wall_seconds=20.0), status=status)
     tried: list[tuple[int, int]] = []
 
-    def fails(_, options: Options):
-        tried.append(options.points)
+    def fails(nodes: tuple[int, int], _: float):
+        tried.append(nodes)
         raise InputError("no memory")
 
     end = working_time() + seconds

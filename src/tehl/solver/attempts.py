@@ -65,7 +65,8 @@ class Attempt:
         return unfolded(self._outputs(), self.run.finest.grid)
 
     def _outputs(self) -> Outputs:
-        return self.kept or self.run.outputs(valid=self.status.kind != "diverged")
+        with np.errstate(all="ignore"):  # of a film that diverged
+            return self.kept or self.run.outputs(valid=self.status.kind != "diverged")
 
     @property
     def is_final(self) -> bool:

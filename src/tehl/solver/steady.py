@@ -103,9 +103,22 @@ def _after_failure(
     def trial(problem: ContactProblem, options: Options) -> Solution:
         return attempt(problem.model_copy(update={"dynamics": None}), options)
 
-    on_others = solved_on_other_nodes(failed, attempt, monitor, end)
+    def on_nodes(nodes: tuple[int, int], seconds: float) -> Solution:
+        return try_strategies(
+            failed.problem,
+            failed.options,
+            monitor=monitor,
+            rough=True,
+            flooded=_known_flooded(failed),
+            until=working_time() + seconds,
+            nodes=nodes,
+        )[1]
+
+    on_others = solved_on_other_nodes(failed, on_nodes, monitor, end)
     if on_others is not None:
-        return on_others.but(options=failed.options)
+        return on_others.but(
+            history=failed.history + on_others.history, cost=failed.cost + on_others.cost
+        )
     if failed.status.cause == "error_not_reached" and failed.errors is not None:
         reached = failed.scaled.film.shape[::-1], failed.errors.film()
     hint = working_hint(failed, trial, monitor, end, reached)
@@ -138,6 +151,7 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     flooded: Flooded | None = None,
     of_central: bool = False,
     until: float | None = None,
+    nodes: tuple[int, int] | None = None,
 ) -> tuple[Attempt, Solution]:
     """Try the strategies; return the best attempt at the steady film and its result.
 
@@ -153,6 +167,8 @@ def try_strategies(  # noqa: PLR0913 (one solve)
         As in `Goal`.
     until : float or None
         When the time is over, on the clock of `working_time` [s]; None is that of the options.
+    nodes : (int, int) or None
+        Nodes along x and y to begin with, in place of those planned for the error.
     """
     warm_up(coupled=problem.is_coupled)
     until = end_of_time(options) if until is None else until
@@ -163,7 +179,8 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     if flooded is not None:
         scaled = replace(scaled, flooded_oil=flooded.oil, flooded_error=flooded.error)
     goal = Goal(scaled, options, of_central=of_central, until=until)
-    plan = goal.fitting(planned(scaled, options))
+    plan = planned(scaled, options)
+    plan = goal.fitting(plan if nodes is None else plan.on_points(*nodes))
     check_supply(scaled, domain_of(scaled, plan))
     check_film(scaled)
     if rough:
@@ -239,6 +256,14 @@ def flooded_film(
         oil=central_value(grid, film.rho) * central,
         error=0.0 if errors is None else errors.central,
     )
+
+
+def _known_flooded(result: Solution) -> Flooded | None:
+    """Return the flooded contact that a result knows."""
+    known = result.supplied
+    if known is None or known.flooded_film is None or known.flooded_oil is None:
+        return None
+    return Flooded(film=known.flooded_film, oil=known.flooded_oil, error=known.flooded_error)
 
 
 def _supplied(level: Level, flooded: Flooded | None) -> Supplied | None:

@@ -24,6 +24,7 @@ THINNING = {"law": "eyring", "stress": "5 MPa"}
 TRIAL_TIME_FACTOR = 3.0
 """Time for the trials over that of the failed solve, up to ``numerics.max_time``."""
 Solve = Callable[[ContactProblem, Options], Solution]
+SolveOn = Callable[[tuple[int, int], float], Solution]
 Reached = tuple[tuple[int, int], float]
 """Nodes (nx, ny) and relative error of a film that converged."""
 OTHER_GRIDS, LEAST_TRIAL = 2, 0.2
@@ -32,9 +33,9 @@ the sums of a roller on 321 x 321 nodes alone take a sixth of it."""
 
 
 def solved_on_other_nodes(
-    failed: Solution, solve: Solve, monitor: Monitor, end: float
+    failed: Solution, solve: SolveOn, monitor: Monitor, end: float
 ) -> Solution | None:
-    """Return the film on slightly more nodes if it converges there to the error to reach.
+    """Return the film from slightly more nodes on, if one converges there; the best of them.
 
     On some grids, coarser ones of their hierarchy included, the discrete equations have no
     solution, or one that the cycles do not find, and on others of nearly the same mesh width they
@@ -42,8 +43,10 @@ def solved_on_other_nodes(
 
     Parameters
     ----------
-    failed, solve, monitor, end
+    failed, monitor, end
         As in `working_hint`.
+    solve : callable
+        Returns the result from nodes (nx, ny) on within some seconds, and raises none.
     """
     if failed.status.kind not in ("diverged", "stalled") or not failed.history:
         return None
@@ -52,20 +55,21 @@ def solved_on_other_nodes(
     keeps = scaled.groups.ellipticity < 1.0 or failed.problem.contact.has_lines
     part = (lines - 1) / (nodes - 1)
     part = part if keeps or part > 1.0 else 1.0
+    best, least = None, math.inf
     for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHER_GRIDS]:
-        left = _time_of_trial(failed, end)
+        left = min(end - working_time(), TRIAL_TIME_FACTOR * failed.cost.wall_seconds)
         if left < LEAST_TRIAL * failed.cost.wall_seconds:
             break
         points = (more, 1 if failed.problem.contact.is_line else round(part * (more - 1)) + 1)
         monitor.message(f"trying {grid_size(points)}")
-        options = failed.options.on_points(*points).model_copy(update={"max_time": left})
         with suppress(TehlError):
-            found = solve(failed.problem, options)
-            errors = found.errors
-            error = math.inf if errors is None else errors.film()
+            found = solve(points, left)
+            error = math.inf if found.errors is None else found.errors.film()
             if found.status.converged and error <= failed.options.target:
                 return found
-    return None
+            if found.status.cause == "error_not_reached" and error < least:
+                best, least = found, error
+    return best
 
 
 def working_hint(
