@@ -49,7 +49,7 @@ WRONG = {
     "above its own": ("largest = 7\n" + STUDY, "has 8 cases, more than 7"),
     "in time": (
         STUDY + '[[axes]]\npath = "transient.frames"\nvalues = [3]',
-        "axis transient.frames: a study of steady films",
+        "transient: nothing changes with time",
     ),
     "impossible": (STUDY.replace("20 N", "-20 N"), "must be positive"),
     "no toml": ("case = ", "is not valid TOML"),

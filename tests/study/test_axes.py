@@ -155,7 +155,7 @@ def test_a_switch_may_be_false_and_another_key_is_left_out_by_it():
         ({"contact.lod": [1]}, "contact.lod is not a known key; did you mean"),
         ({"contact.radius": ["5 N"]}, 'contact.radius = "5 N": has the unit of a force'),
         ({"contact.radius": []}, "empty list of values"),
-        ({"title": ["a"]}, "does not vary it"),
+        ({"title": ["a"]}, "axis title: changes no result"),
         ({"surface_1.material.young_modulus.x": [1]}, "goes through young_modulus"),
     ],
 )

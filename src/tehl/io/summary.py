@@ -1,11 +1,12 @@
 """The numbers of a result as one JSON object."""
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import asdict
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass
 from itertools import groupby
+from operator import attrgetter
 from types import SimpleNamespace
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from pydantic import TypeAdapter
@@ -154,7 +155,6 @@ def roughness_block(found: RoughFilm) -> Block:
 
 def _transient(run: TransientSolution) -> Block:
     history, times = run.history, run.history.time
-    rise = _extreme(history.temperature_rise, times, np.argmax)
     cycles = history.cycles[1:].astype(float) if history.cycles.size > 1 else np.zeros(1)
     content: Block = {
         "time": {
@@ -165,28 +165,15 @@ def _transient(run: TransientSolution) -> Block:
             "late_extremes": list(late_extremes(run)),
             "longer_duration_s": longer_duration(run),
         },
-        "film": {
-            "h_min_m": _extreme(history.film_minimum, times, np.argmin),
-            "h_central_m": _range(history.film_central),
-        },
-        "pressure": {"p_max_pa": _extreme(history.pressure_max, times, np.argmax)},
-        "temperature": None if run.start.heat is None else {"film_rise_max_k": rise},
-        "traction": _range(history.traction),
-        "traction_across": _range_if(history.traction_across),
-        "drilling": {"moment_n_m": _range(history.drilling_moment)}
-        if history.drilling_moment.any()
-        else None,
-        "rolling": {"moment_n_m": _range(history.rolling_moment)}
-        if run.start.problem.contact.has_lines
-        else None,
-        "friction": None if (rubbed := friction(run)) is None else _range(rubbed),
-        "asperity_load": None
-        if run.start.asperities is None and run.start.problem.contact_film is None
-        else _extreme(history.asperity_load, times, np.argmax),
-        "load_factor": _range(history.load),
-        "speed_factor": _range(history.speed),
-        "radius_factor": _range(history.radius),
-        "sliding_factor": _range(history.sliding),
+    }
+    for one in HISTORY:
+        values, (block, _, key) = one.of(run), one.path.partition(".")
+        found = None if values is None else one.statistics(values, times)
+        if key:
+            content[block] = (content.get(block) or {}) | {key: found} if found else None
+        else:
+            content[block] = found
+    content |= {
         "cycles": {"per_step": cycles.mean(), "most": cycles.max(), "total": cycles.sum()},
         "cost": asdict(run.cost),
         "start": summary(run.start),
@@ -198,17 +185,90 @@ def _transient(run: TransientSolution) -> Block:
     return content
 
 
-def _extreme(values: Array, times: Array, find: Any) -> Block:
-    place = find(values)
-    return {"value": values[place], "time_s": times[place], "start": values[0]}
+@dataclass(frozen=True, slots=True)
+class Historical:
+    """A number of each step in the summary of a transient result: extremes, mean and end."""
+
+    path: str
+    """Where it is."""
+    of: Callable[[TransientSolution], Array | None]
+    """Its values, (nt,); None where there are none."""
+    extreme: Literal["least", "largest"] | None = None
+    """The one extreme that matters, ``value`` at ``time_s``; None has both."""
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Return the paths of its statistics."""
+        extremes = ("value", "time_s") if self.extreme else _BOTH
+        return tuple(f"{self.path}.{key}" for key in (*extremes, "start", "end", "mean"))
+
+    def statistics(self, values: Array, times: Array) -> Block:
+        """Return extremes and their times, start, end, and mean over time.
+
+        Parameters
+        ----------
+        values, times : Array
+            At each step, (nt,), the times in [s].
+        """
+        low, high = int(values.argmin()), int(values.argmax())
+        mean = float(np.mean(0.5 * (values[1:] + values[:-1]))) if values.size > 1 else values[0]
+        places = {"least": (low,), "largest": (high,), None: (low, high)}[self.extreme]
+        found = [one for place in places for one in (values[place], times[place])]
+        keys = (column.rpartition(".")[2] for column in self.columns)
+        return dict(zip(keys, (*found, values[0], values[-1], mean), strict=True))
 
 
-def _range(values: Array) -> Block:
-    return {"least": values.min(), "largest": values.max(), "start": values[0], "end": values[-1]}
+_BOTH = ("least", "least_time_s", "largest", "largest_time_s")
 
 
-def _range_if(values: Array) -> Block | None:
-    return _range(values) if values.any() else None
+def _if_any(name: str) -> Callable[[TransientSolution], Array | None]:
+    """Return the function to a part of the history, None where it is zero throughout."""
+
+    def found(run: TransientSolution) -> Array | None:
+        values: Array = getattr(run.history, name)
+        return values if values.any() else None
+
+    return found
+
+
+def _asperity_load(run: TransientSolution) -> Array | None:
+    has_solids = run.start.asperities is not None or run.start.problem.contact_film is not None
+    return run.history.asperity_load if has_solids else None
+
+
+HISTORY = (
+    Historical("film.h_min_m", attrgetter("history.film_minimum"), "least"),
+    Historical("film.h_central_m", attrgetter("history.film_central")),
+    Historical("pressure.p_max_pa", attrgetter("history.pressure_max"), "largest"),
+    Historical(
+        "temperature.film_rise_max_k",
+        lambda run: None if run.start.heat is None else run.history.temperature_rise,
+        "largest",
+    ),
+    Historical("traction", attrgetter("history.traction")),
+    Historical("traction_across", _if_any("traction_across")),
+    Historical("drilling.moment_n_m", _if_any("drilling_moment")),
+    Historical(
+        "rolling.moment_n_m",
+        lambda run: run.history.rolling_moment if run.start.problem.contact.has_lines else None,
+    ),
+    Historical("friction", friction),
+    Historical("asperity_load", _asperity_load, "largest"),
+    Historical("load_factor", attrgetter("history.load")),
+    Historical("speed_factor", attrgetter("history.speed")),
+    Historical("radius_factor", attrgetter("history.radius")),
+    Historical("sliding_factor", attrgetter("history.sliding")),
+)
+"""Numbers of each step, in the order of the summary."""
+
+
+def history_columns() -> dict[str, str]:
+    """Return the paths of what a summary has of each step, and the path whose unit each has."""
+    return {
+        column: column if column.endswith("_s") else one.path
+        for one in HISTORY
+        for column in one.columns
+    }
 
 
 def _history_bars(bars: HistoryBars) -> Block:

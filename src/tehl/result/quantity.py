@@ -31,7 +31,8 @@ SI = {
     "n_s_per_m": "N s/m",
     "n_s2_per_m": "N s^2/m",
     "n_m": "N m",
-    **{"m2": "m^2", "m": "m", "pa": "Pa", "k": "K", "w": "W", "rad": "rad", "hz": "Hz"},
+    "m_s": "m/s",
+    **{"m2": "m^2", "m": "m", "pa": "Pa", "k": "K", "w": "W", "rad": "rad", "hz": "Hz", "s": "s"},
 }
 """SI units by the endings of keys, of which the first counts."""
 

@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from tehl.api.problem import ContactProblem
-from tehl.api.results import Result
+from tehl.api.results import Result, TransientResult
 from tehl.base.version import SOLVER_VERSION, __version__
 from tehl.contact.options import Options
 from tehl.io.case import with_settings
+from tehl.io.summary import history_columns
 from tehl.result.quantity import SI, ending_of
 from tehl.result.solution import Cost, Hint, Settings
 
@@ -138,7 +139,7 @@ def retried(case: Case, row: Row) -> Case:
     )
 
 
-def row_of(case: Case, result: Result) -> Row:
+def row_of(case: Case, result: Result | TransientResult) -> Row:
     """Return the row of a result, converged or not.
 
     Parameters
@@ -174,6 +175,7 @@ def flat(tree: Mapping[Any, Any]) -> Iterator[tuple[str, Scalar]]:
 
 def unit_of(name: str) -> str:
     """Return the unit of a number of a summary, ``"1"`` where it has none."""
+    name = history_columns().get(name, name)
     parts = [part for part in name.split(".") if not part.isdigit()]
     if parts[0] == "uncertainty" and parts[-1] in _PARTS_OF_ESTIMATES:
         parts.pop()

@@ -21,7 +21,7 @@ from pathlib import Path
 from threading import Lock, Thread
 from typing import TYPE_CHECKING, Any
 
-from tehl.api.results import ConvergenceError, Result, load_as
+from tehl.api.results import ConvergenceError, Result, TransientResult, load_as
 from tehl.base.errors import InputError, TehlError
 from tehl.base.lazy import lazy
 from tehl.base.version import __version__
@@ -306,8 +306,8 @@ def _version() -> str:
 Files = tuple[Path | None, Path | None]
 """Where the fields of a case go, and those of another case to start from."""
 Solve = Callable[[Case, Path | None, Path | None], Row]
-Make = Callable[[Case, Result], Row]
-"""Makes the row of a result."""
+Make = Callable[[Case, Any], Row]
+"""Makes the row of a result, steady or transient as the case is."""
 
 
 def serve(connection: Connection) -> None:
@@ -413,14 +413,20 @@ def _failed(case: Case, error: Exception) -> Row:
     )
 
 
-def _solved(case: Case, guess: Path | None) -> Result:
-    """Return the result, converged or not; a guess that cannot be read is ignored."""
+def _solved(case: Case, guess: Path | None) -> Result | TransientResult:
+    """Return the result, converged or not; a guess that cannot be read is ignored.
+
+    That of a transient run whose start did not converge is the steady one.
+    """
     known = None
     if guess is not None:
         with suppress(TehlError):
             known = load_as(Result, guess)
     try:
         options = case.solved_options
+        if case.problem.transient is not None:
+            in_time = solvers.certify_transient if case.certify else solvers.solve_transient
+            return in_time(case.problem, options)
         if case.certify:
             return solvers.certify(case.problem, options)
         if case.problem.has_passes:

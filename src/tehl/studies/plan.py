@@ -86,12 +86,10 @@ def _case(plan: Plan, rows: tuple[int, ...], units: dict[str, str]) -> Case:
     for path, _, setting in settings:
         tables = changed(tables, path, setting.value)
     problem, options = case_from_tables(tables, plan.folder)
-    if problem.transient is not None:
-        raise InputError("has a table [transient]: a study is one of steady films")
     if problem.has_passes and plan.certify:
         raise InputError("certify is for a single pass: leave it out, or supply.passes")
     if plan.certify and options.points != "auto":
-        check_certifiable(options)
+        check_certifiable(options, transient=problem.transient is not None)
     labels: dict[str, Label] = {}
     for path, name, setting in settings:
         found, kind = found_at(problem, options, path)

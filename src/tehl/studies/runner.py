@@ -14,9 +14,10 @@ from tehl.base.lazy import lazy
 from tehl.contact.options import Options
 from tehl.estimate.cpu_time import expected_seconds
 from tehl.estimate.memory import available_memory, needed_memory
-from tehl.estimate.nodes import planned
+from tehl.estimate.nodes import finest_grid, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels.cache import is_cold
+from tehl.report.transient_plan import transient_plan
 from tehl.studies.case import Case, Row, retried
 from tehl.studies.engines import (
     Engine,
@@ -434,7 +435,12 @@ def _plan(case: Case) -> Options:
 
 
 def _seconds(case: Case) -> float:
-    seconds = expected_seconds(ScaledProblem.of(case.problem), case.options) + _BASE_SECONDS
+    scaled, options = ScaledProblem.of(case.problem), _plan(case)
+    seconds = expected_seconds(scaled, case.options) + _BASE_SECONDS
+    grid, scales = finest_grid(scaled, options), scaled.scales
+    mesh = grid.dx * scales.half_width_x, grid.dy * scales.half_width_y
+    in_time = transient_plan(scaled, options, mesh)
+    seconds += 0.0 if in_time is None else in_time.seconds
     # over the work of the finest grid, to tight tolerances
     return seconds * (3.5 if case.certify else 1.0)
 

@@ -14,7 +14,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Literal, get_args
 
-from tehl.api.results import Result, load_as
+from tehl.api.results import Result, TransientResult, load_as
 from tehl.base.atomic import check_place
 from tehl.base.errors import FileFormatError, InputError
 from tehl.result.solution import Cost, Hint
@@ -132,6 +132,11 @@ class Store:
         path = self.fields_path(case)
         return load_as(Result, path) if path.is_file() else None
 
+    def run(self, case: Case) -> TransientResult | None:
+        """Return the same of a transient case."""
+        path = self.fields_path(case)
+        return load_as(TransientResult, path) if path.is_file() else None
+
     def put(self, *rows: Row) -> None:
         """Keep rows, all or none; they replace older ones of the same keys."""
         lines = [_line(row) for row in rows]
@@ -222,6 +227,10 @@ class Memory(Store):
         return {key: self._known[key] for key in keys if key in self._known}
 
     def result(self, case: Case) -> None:
+        """Return None: fields are not kept."""
+        del case
+
+    def run(self, case: Case) -> None:
         """Return None: fields are not kept."""
         del case
 

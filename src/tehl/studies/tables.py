@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from tehl.base.lazy import lazy
+from tehl.io.summary import history_columns
 from tehl.result.registry import OWNERS, columns
 from tehl.result.solution import settings_text
 from tehl.studies.case import Case, Scalar, unit_of
@@ -24,6 +25,7 @@ _OUTCOME = ("status", "cause", "message")
 _BUILT_IN = ("name", *_OUTCOME, "hint", "retry_settings", "key")
 """Columns that every table has, the hint of a case, and the settings of a retry."""
 
+_START = "start."
 _MIRROR = "uncertainty"
 """Block that repeats the names of others."""
 _INDEX = re.compile(r"\.\d+(?=\.|$)")
@@ -81,6 +83,10 @@ def is_reserved(name: str) -> bool:
 
 def is_number(name: str) -> bool:
     """Return whether a summary may have a column of this full name."""
+    if name.startswith(_START):  # the steady film of a transient run
+        return is_number(name.removeprefix(_START))
+    if name in history_columns():
+        return True
     return _INDEX.sub(".0", name) in columns() or name.partition(".")[0] == _MIRROR
 
 
@@ -97,7 +103,7 @@ def missing_column(labels: Iterable[str], name: str) -> str | None:
         Full path or last part of it, perhaps with a minus before it.
     """
     wanted = name.removeprefix("-")
-    known = [*labels, *_BUILT_IN, *columns()]
+    known = [*labels, *_BUILT_IN, *columns(), *history_columns()]
     endings = (f".{wanted}", f".{_INDEX.sub('.0', wanted)}")
     if is_number(wanted) or any(f".{column}".endswith(endings) for column in known):
         return None
