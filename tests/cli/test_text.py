@@ -143,6 +143,12 @@ def test_a_grid_error_above_the_value_itself_is_a_percentage(result):
     assert "error about 130 %" in as_text(replace(result, errors=errors))
 
 
+def test_an_error_far_above_the_value_has_no_digits(result):
+    errors = replace(result.errors, discretisation_minimum=5.9e5)
+    shown = as_text(replace(result, errors=errors))
+    assert "error above 1000 %" in shown
+
+
 def test_a_failure_has_its_hint_in_a_second_line():
     status = Status(
         kind="stalled", cause="grid_too_coarse", message="too coarse", hint=Hint("take 513")

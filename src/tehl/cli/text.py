@@ -8,7 +8,7 @@ from tehl.cli.reference_runs import Comparisons
 from tehl.post.film import no_film
 from tehl.post.heat import work_error
 from tehl.post.traction import LARGEST_CREDIBLE
-from tehl.report.readable import UNTITLED, length_unit
+from tehl.report.readable import UNTITLED, error_text, length_unit
 from tehl.report.rendering import render
 from tehl.report.rows import following, rows_of
 from tehl.result.quantity import UNITS
@@ -70,7 +70,4 @@ def _bar(result: Result | TransientResult, name: str) -> str:
         return f"   certified {bar} ({parts})"
     errors = None if isinstance(result, TransientResult) else result.errors
     error = None if errors is None else errors.of(name)
-    if error is None:
-        return ""
-    percent = 100.0 * abs(error)
-    return f"   error about {percent:{'.2g' if percent < 99.5 else '.0f'}} %"
+    return "" if error is None else f"   error {error_text(error)}"

@@ -22,6 +22,18 @@ _INPUTS = {
 """By SI unit, from the largest: smallest magnitude, factor and unit."""
 
 
+LARGEST_SHOWN_ERROR = 10.0
+"""Relative error from which on its value says nothing: that of a film that has not converged."""
+
+
+def error_text(error: float) -> str:
+    """Return a relative error of a value [-], as in ``about 1.4 %`` or ``above 1000 %``."""
+    percent = 100.0 * abs(error)
+    if not abs(error) <= LARGEST_SHOWN_ERROR:
+        return f"above {100.0 * LARGEST_SHOWN_ERROR:.0f} %"
+    return f"about {percent:{'.2g' if percent < 99.5 else '.0f'}} %"
+
+
 def length_unit(metres: float) -> tuple[float, str]:
     """Return the factor from metres to a fitting unit (mm, um or nm), and that unit."""
     return next(((f, unit) for least, f, unit in _LENGTHS if abs(metres) >= least), (1.0, "m"))

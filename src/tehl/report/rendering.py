@@ -4,7 +4,7 @@ import math
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
-from tehl.report.readable import length, seconds
+from tehl.report.readable import error_text, length, seconds
 from tehl.result import quantity
 
 if TYPE_CHECKING:
@@ -51,6 +51,7 @@ def _environment() -> "Environment":
         "celsius": lambda kelvin: f"{kelvin - 273.15:.4g} °C",
         "degc": lambda kelvin: f"{kelvin - 273.15:.4g} degC",
         "degrees": math.degrees,
+        "error": error_text,
         "about": lambda number: f"{float(f'{number:.2g}'):,.0f}",
         "g": lambda value, digits=4: f"{value:.{digits}g}",
         "plain": lambda value, digits=1: f"{float(f'{value:.{digits}g}'):g}",  # 20, not 2e+01
