@@ -22,6 +22,7 @@ from tehl.solver.judging.diagnosis import (
     likely_cause,
     not_reached,
 )
+from tests.cases import ball_tables
 from tests.reference import heated_contact, moes_contact
 from tests.solver.test_roller import LOGARITHMIC, roller
 
@@ -59,6 +60,17 @@ def test_a_stress_beyond_that_of_oils_is_attributed_to_the_shear_law():
     assert found is not None
     assert found.cause == "shear_stress"
     assert "lubricant.shear" in str(found.hint)
+
+
+@pytest.mark.parametrize(("pressure", "is_glass"), [(1e9, False), (5e9, True)])
+def test_a_glass_by_the_law_of_barus_is_a_likely_cause(pressure, is_glass):
+    tables = ball_tables(contact={"radius": 0.01, "hertz_pressure": pressure, "moes_speed": 10.0})
+    tables["lubricant"]["viscosity"] = {"law": "barus", "eta_0": 0.1, "alpha": "15 1/GPa"}
+    found = cause_of(ContactProblem.model_validate(tables), 1025)
+    assert (found is not None and found.cause == "viscosity_law") is is_glass
+    if found is not None and is_glass:  # 0.1 Pa s times e^75
+        assert "10^32 Pa s" in found.message
+        assert found.hint.settings == {"lubricant.viscosity.law": "roelands"}
 
 
 def test_a_film_too_thin_for_the_grid_is_attributed_to_the_grid():

@@ -242,6 +242,34 @@ def test_a_shear_law_is_tried_first_where_the_stress_is_the_likely_cause():
         assert tried[0] == first
 
 
+def test_a_shear_law_and_that_of_roelands_are_tried_together_first():
+    """A heated line of a Barus oil at 4.2 GPa converges by both, and by neither alone."""
+    tables = ball_tables(thermal={})
+    tables["lubricant"] |= {"conductivity": 0.14, "heat_capacity": 2000.0}
+    tables["lubricant"]["viscosity"] = {
+        "law": "barus",
+        "eta_0": 0.14,
+        "alpha": "20 1/GPa",
+        "gamma": 0.04,
+        "reference_temperature": "40 degC",
+    }
+    failed = replace(failure(100.0, points=33).result, options=Options())
+    failed = replace(failed, problem=ContactProblem.model_validate(tables))
+    failed = failed.but(cost=replace(failed.cost, wall_seconds=5.0))
+    law = Hint("oils shear at such stresses.", {"lubricant.shear": {"law": "eyring"}})
+    failed = replace(failed, status=replace(failed.status, hint=law))
+    tried: list[tuple[str, str, float]] = []
+
+    def fails(problem: ContactProblem, options: Options):
+        oil = problem.lubricant
+        tried.append((oil.shear.law, oil.viscosity.law, options.max_time))
+        raise InputError("no memory")
+
+    working_hint(failed, fails, SILENT, math.inf)
+    assert tried[0][:2] == ("eyring", "roelands")
+    assert tried[0][2] == pytest.approx(15.0, abs=0.1)  # all the time of trials
+
+
 def test_the_law_of_roelands_is_tried_in_place_of_that_of_barus():
     """With its constants a heated circle at 1.6 GPa converges, by Barus' law it does not."""
     tables = ball_tables()

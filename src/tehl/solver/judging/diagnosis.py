@@ -30,6 +30,8 @@ MOST_WIDENED = 2.0
 with 2.9 by a tilt and 4.5 by a crown (M = 12, L = 15) they diverge."""
 MOST_LOAD = 0.5
 """Part of the load on solids from which on the film decides no number of nodes."""
+GLASS = 12.0
+"""Decimal logarithm of the viscosity at which an oil is a glass [Pa s]."""
 LESS_ROUGH = Hint(
     "Take lower or longer asperities, a higher speed, or more nodes (numerics.points)."
 )
@@ -183,7 +185,7 @@ def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
     scaled : ScaledProblem
         Its expected film, temperatures and stresses are compared with limits.
     """
-    found = [*_load_on_an_edge(scaled), *_film_below_grid(grid, scaled)]
+    found = [*_load_on_an_edge(scaled), *_glass(scaled.problem), *_film_below_grid(grid, scaled)]
     if scaled.problem.is_coupled:
         found = [*_body_temperature(scaled.problem), *_shear_stress(scaled), *found]
     if not found:
@@ -238,6 +240,28 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
         hint=Hint(
             "oils shear at such stresses.",
             {"lubricant.shear": {"law": "eyring", "stress": "5 MPa"}},
+        ),
+    )
+
+
+def _glass(problem: ContactProblem) -> Iterator[LikelyCause]:
+    """Yield Barus' law if it makes a glass of the oil long before the largest pressure."""
+    if problem.lubricant.viscosity.law != "barus":
+        return
+    exponent = problem.pressure_coefficient * problem.hertz.pressure
+    decades = math.log10(problem.ambient_viscosity) + exponent / math.log(10.0)
+    if not decades > GLASS:
+        return
+    yield LikelyCause(
+        cause="viscosity_law",
+        message=(
+            "lubricant.viscosity.law = barus with a Hertz pressure of "
+            f"{problem.hertz.pressure / 1e9:.3g} GPa: the viscosity is 10^{decades:.0f} Pa s; "
+            f"oils are glasses from 10^{GLASS:.0f} Pa s on."
+        ),
+        hint=Hint(
+            "its viscosity grows less at such pressures.",
+            {"lubricant.viscosity.law": "roelands"},
         ),
     )
 

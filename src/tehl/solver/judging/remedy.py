@@ -133,20 +133,25 @@ def _untried(failed: Solution) -> Hint:
     """Return the hint where the time to try settings was over: that to a likely cause, if known."""
     status = failed.status
     named = status.kind == "diverged" and status.cause != "diverged"
-    if status.hint is not None and (named or _names_shear(failed)):
+    if status.hint is not None and (named or _names_law(failed)):
         return status.hint
     return Hint("The time to try other settings was over: more numerics.max_time tries more.")
 
 
-def _names_shear(failed: Solution) -> bool:
-    """Return whether the likely cause is the stress of an oil that does not thin."""
+def _names_law(failed: Solution) -> bool:
+    """Return whether the likely cause is a law of the oil: one without thinning, or Barus'."""
     hint = failed.status.hint
-    return hint is not None and "lubricant.shear" in hint.settings
+    return hint is not None and any(key.startswith("lubricant.") for key in hint.settings)
 
 
 def _time_of_trial(failed: Solution, end: float) -> float:
-    """Return the time for one trial [s]: that of the failed solve, which tried all strategies."""
+    """Return the time for one trial [s]: that of the failed solve, which tried all strategies.
+
+    All that is left where a law of the oil is the likely cause: such solves diverge at once.
+    """
     left = end - working_time()
+    if _names_law(failed):
+        return left
     return min(left, max(failed.cost.wall_seconds, LEAST_SECONDS))
 
 
@@ -169,7 +174,7 @@ Trial = tuple[Settings, ContactProblem, Options]
 def _trials(failed: Solution, least: float) -> list[Iterator[Trial]]:
     """Return what is tried, in this order; ``least``: the error that was reached."""
     others = [_errors(failed, least), _other_physics(failed)]
-    if _names_shear(failed):  # no error makes up for such stresses
+    if _names_law(failed):  # no error makes up for such an oil
         others.reverse()
     return [_default_domain(failed), *others]
 
@@ -196,13 +201,16 @@ def _other_physics(failed: Solution) -> Iterator[Trial]:
     constants a heated circle of silicon nitride (1.6 GPa, M = 186) converges at once.
     """
     lubricant = failed.problem.lubricant
+    changes: list[Settings] = []
     if lubricant.shear.law == "newtonian" and failed.problem.is_coupled:
-        tables = failed.problem.model_dump(exclude_none=True)
-        tables["lubricant"]["shear"] = THINNING
-        problem = ContactProblem.model_validate(tables)
-        yield {"lubricant.shear": THINNING}, problem, failed.options
+        changes.append({"lubricant.shear": THINNING})
     if lubricant.viscosity.law == "barus":
+        changes.append({"lubricant.viscosity.law": "roelands"})
+    both = {key: value for one in changes for key, value in one.items()}
+    for settings in (both, *changes) if len(changes) == 2 else changes:
         tables = failed.problem.model_dump(exclude_none=True)
-        tables["lubricant"]["viscosity"]["law"] = "roelands"
-        problem = ContactProblem.model_validate(tables)
-        yield {"lubricant.viscosity.law": "roelands"}, problem, failed.options
+        if "lubricant.shear" in settings:
+            tables["lubricant"]["shear"] = THINNING
+        if "lubricant.viscosity.law" in settings:
+            tables["lubricant"]["viscosity"]["law"] = "roelands"
+        yield settings, ContactProblem.model_validate(tables), failed.options
