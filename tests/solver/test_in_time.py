@@ -9,7 +9,7 @@ from scipy.interpolate import CubicSpline
 
 from tehl import InputError, certify_transient, solve, solve_transient
 from tehl.api.problem import ContactProblem
-from tehl.api.results import TransientResult
+from tehl.api.results import TransientResult, result_of
 from tehl.cli.text import as_text
 from tehl.contact.moment import Moment, courses_of, moment_at
 from tehl.contact.options import Domain, Options
@@ -21,6 +21,7 @@ from tehl.estimate.ways import Way
 from tehl.io.templates import template_text
 from tehl.operators.reynolds import carried
 from tehl.operators.trail import VaryingTrail
+from tehl.post.transient import film_at
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient.oil import Lead, Oil
 from tehl.solver.transient.run import Run
@@ -105,6 +106,17 @@ def test_the_rolling_moment_of_a_slow_change_is_that_of_the_steady_film(key):
     assert abs(ends[1] / steady.moment - 1.0) < 0.02
     # on the grid it is the moment of the pressure, whatever the radius is
     assert abs(steady.closure_error) < 1e-6
+
+
+def test_a_stored_film_has_load_motion_and_rolling_moment_of_its_time():
+    tables = {"entrainment_speed": [[0.0, 1.0], [4.0 * UNIT, 1.5]], "frames": 3}
+    course = {"load": [[0.0, 1.0], [4.0 * UNIT, 1.2]], "radius": [[0.0, 1.0], [4.0 * UNIT, 0.9]]}
+    run = changing(129, [-4.5, 1.5], 4.0, **tables, **course)
+    for frame, step in enumerate(run.frames.step):
+        film, history = result_of(film_at(run, frame)), run.history
+        assert film.load == pytest.approx(history.load[step] * run.start.scales.load)
+        # the fields have single precision
+        assert film.rolling.moment == pytest.approx(history.rolling_moment[step], rel=1e-4)
 
 
 def test_the_rolling_moment_turns_with_the_motion():

@@ -11,6 +11,7 @@ from tehl.api.results import TransientResult
 from tehl.api.solvers import solve, solve_transient
 from tehl.contact.options import Domain, Options
 from tehl.operators.reynolds import Entrainment
+from tehl.post.stress.moving import frame_loads
 from tehl.post.transient import film_at
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient.run import Run
@@ -211,3 +212,13 @@ def test_steady_films_start_at_the_speed_of_the_moment():
     )
     assert alike / wanted < 0.985
     assert spun / plain == pytest.approx(alike / wanted, rel=1e-3)
+
+
+def test_the_traction_across_loads_the_bodies_along_y():
+    """Of sliding across what sliding along has along x, the rolling part apart."""
+    course = {"load": ((0.0, 1.0), (0.002, 1.2))}
+    along, across = (run(motion, 0.005, **course) for motion in ("along", "across"))
+    loads = [frame_loads(one, 1, 1) for one in (along, across)]
+    turned = loads[1].traction_y - loads[0].traction_y
+    wanted = loads[0].traction_x - loads[1].traction_x
+    np.testing.assert_allclose(turned, wanted, atol=2e-3 * np.abs(wanted).max())

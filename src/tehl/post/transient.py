@@ -214,8 +214,9 @@ def film_at(run: TransientSolution, frame: int = -1) -> Solution:
     """Return a stored field as a steady result.
 
     It has pressure, film and heights at that time in the precision of the fields, with the smallest
-    nodal film as the minimum; no temperatures, stresses, error bars and cycles. The functions of
-    `tehl.post.roughness`, `tehl.post.micro_film` and `tehl.plots` take it.
+    nodal film as the minimum, and load and motion of that time; no temperatures, stresses, error
+    bars and cycles. The functions of `tehl.post.roughness`, `tehl.post.micro_film` and `tehl.plots`
+    take it.
 
     Parameters
     ----------
@@ -248,6 +249,7 @@ def film_at(run: TransientSolution, frame: int = -1) -> Solution:
             minimum_at=(float(x[column]), float(y[row])),
         ),
         heights=_heights(run, frame),
+        time=float(run.history.time[frames.step[frame]]),
         history=(),
         errors=None,
         uncertainty={},

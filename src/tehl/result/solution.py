@@ -210,6 +210,8 @@ class Extras:
     """Stress below the surfaces; None if the case does not ask for it."""
     dynamics: FilmDynamics | None = None
     """Stiffness and damping; None unless the case states ``[dynamics]``."""
+    time: float | None = None
+    """When this film of a transient run was [s]; None of a steady one, and of that at the start."""
 
 
 class _Of(Generic[Value]):
@@ -292,6 +294,7 @@ class Solution:
     passes = _Of[PassHistory | None]("extras")
     stress = _Of[BodyStress | None]("extras")
     dynamics = _Of[FilmDynamics | None]("extras")
+    time = _Of[float | None]("extras")
 
     @property
     def certified(self) -> dict[str, Estimate]:
@@ -306,8 +309,8 @@ class Solution:
 
     @property
     def load(self) -> float:
-        """Return the load of the film; at the start of a transient run that of t = 0 [N]."""
-        return self.scales.load * moment_at(self.problem, 0.0).load
+        """Return the load of the film [N]; of a transient run that of its time."""
+        return self.scales.load * moment_at(self.problem, self.time or 0.0).load
 
     @property
     def solved_problem(self) -> ContactProblem:
@@ -322,7 +325,7 @@ class Solution:
             problem=problem,
             scales=self.scales,
             groups=self.groups,
-            moment=moment_at(problem, 0.0),
+            moment=moment_at(problem, self.time or 0.0),
         )
         known = self.supplied
         if known is None:

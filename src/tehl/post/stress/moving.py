@@ -11,7 +11,7 @@ from tehl.post.stress.below import Case, Grid, March, poisson_ratio
 from tehl.post.stress.loads import SurfaceLoads, parts_of_cells
 from tehl.post.stress.measures import Worst, largest_shear
 from tehl.post.stress.window import cut, depths_of, middle_row, window_of
-from tehl.post.traction import LARGEST_CREDIBLE, slope_across
+from tehl.post.traction import LARGEST_CREDIBLE, sliding_direction, slope_across
 from tehl.post.transient import film_at
 from tehl.result.transient import TransientSolution
 
@@ -103,8 +103,9 @@ def frame_loads(run: TransientSolution, frame: int, body: int) -> SurfaceLoads:
     total = pressure / (1.0 - share) if problem.asperities is not None else pressure
     stored, sign = run.frames.stress, 1.0 if body == 1 else -1.0
     sliding = traction * total if stored is None else np.where(pressure > 0.0, stored[frame], 0.0)
-    if not abs(traction) <= LARGEST_CREDIBLE:
-        sliding = np.zeros_like(total)
+    if not np.hypot(traction, run.history.traction_across[step]) <= LARGEST_CREDIBLE:
+        sliding, sideways = np.zeros_like(total), np.zeros_like(total)
+    sideways = run.history.traction_across[step] * total
     rubbed = 0.0 * total
     if problem.asperities is not None:
         rubbed += problem.asperities.friction * share * total
@@ -112,9 +113,11 @@ def frame_loads(run: TransientSolution, frame: int, body: int) -> SurfaceLoads:
         rubbed += (
             problem.contact_film.friction * total * problem.contact_film.meets(film.film_thickness)
         )
-    sliding = sliding - np.sign(problem.slide_roll_ratio) * rubbed
+    towards_x, towards_y = sliding_direction(film)
+    sliding, sideways = sliding - towards_x * rubbed, sideways - towards_y * rubbed
     along_y, along_x = slope_across(film, pressure), np.gradient(pressure, film.x, axis=1)
     half = 0.5 * film.film_thickness
     part = parts_of_cells(film)
     along = sign * sliding - half * along_x
-    return SurfaceLoads(part * total, part * along, -part * half * along_y)
+    across = sign * sideways - half * along_y
+    return SurfaceLoads(part * total, part * along, part * across)
