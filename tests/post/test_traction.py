@@ -92,6 +92,21 @@ def test_a_traction_beyond_that_of_oils_is_not_credible(sheared):
     assert not replace(sheared, shear=shear).traction.credible
 
 
+def test_spin_alone_shears_no_oil_harder_than_it_can_carry():
+    """Its forces cancel out, not those at each place."""
+    radii = {"radius_x": 0.02, "radius_y": 0.02}
+    motion = {"load": 80.0, "entrainment_speed": 1.5, "spin_1": 10.0, "spin_2": -10.0}
+    result = make_result(65, case=CASE | {"contact": radii | motion})
+    x, y = result.x, result.y[:, None]
+    for friction, is_credible in ((0.08, True), (0.3, False)):
+        stress = friction * result.pressure / np.maximum(np.hypot(x, y), 1e-12)
+        shear = replace(with_shear(result).shear, mid_film=stress * y, across=-stress * x)
+        found = replace(result, shear=shear).traction
+        assert found.size < 1e-3
+        assert found.sheared == pytest.approx(friction, rel=0.05)
+        assert found.credible is is_credible
+
+
 def test_stresses_outside_the_pressurised_film_do_not_count(sheared):
     dry = under_pressure(sheared) == 0
     shear = replace(sheared.shear, mid_film=np.where(dry, np.nan, sheared.shear.mid_film))

@@ -117,9 +117,9 @@ def test_the_heat_of_a_contact_that_spins_is_its_friction(monkeypatch):
 
 @pytest.mark.parametrize("other", OTHERS)
 def test_a_slow_change_follows_the_steady_films(other):
-    """To the errors of both schemes on these nodes: the first film keeps its wedge, others do not.
+    """As well as without spin: minima of conserving films then differ by 0.25 % on these nodes.
 
-    The starved film differs by 0.7 % here and 0.4 % on 129 nodes.
+    The first film keeps its wedge, others do not.
     """
     slow, there = (
         solve_transient(
@@ -128,6 +128,5 @@ def test_a_slow_change_follows_the_steady_films(other):
         ).history
         for course, end in (([[0.0, 1.0], [2e-3, 1.2]], 5e-3), ([[0.0, 1.2]], 1e-5))
     )
-    part = 1e-2 if other == "starved" else 1e-3
-    assert slow.film_central[-1] == pytest.approx(there.film_central[0], rel=part)
-    assert slow.film_minimum[-1] == pytest.approx(there.film_minimum[0], rel=part)
+    assert slow.film_central[-1] == pytest.approx(there.film_central[0], rel=1e-3)
+    assert slow.film_minimum[-1] == pytest.approx(there.film_minimum[0], rel=2.5e-3)

@@ -31,7 +31,7 @@ class Carrier:
         self.x, self.y, self.period = x, y, period
         self._last: tuple[Way, csr_array] | None = None
 
-    def carried(self, field: Array, way: Way, *, limited: bool = False) -> Array:
+    def carried(self, field: Array, way: Way, limited: BoolArray | None = None) -> Array:
         """Return a field after a motion; beyond the edges it is as there.
 
         Parameters
@@ -40,14 +40,15 @@ class Carrier:
             Nodal values, (ny, nx).
         way : Way
             Of the motion.
-        limited : bool
-            Whether fronts of oil stay monotone: no value leaves those of the nodes around.
+        limited : (ny, nx) array of bool or None
+            Where fronts of oil stay monotone: no value leaves those of the nodes around.
         """
         matrix = self.matrix(way)
         found = matrix @ field.ravel()
-        if limited:
-            around = field.ravel()[matrix.indices.reshape(found.size, -1)[:, INNER]]
-            found = np.clip(found, around.min(axis=1), around.max(axis=1))
+        if limited is not None:
+            here = limited.ravel()
+            near = field.ravel()[matrix.indices.reshape(found.size, -1)[here][:, INNER]]
+            found[here] = np.clip(found[here], near.min(axis=1), near.max(axis=1))
         return np.asarray(found.reshape(field.shape))
 
     def matrix(self, way: Way) -> csr_array:

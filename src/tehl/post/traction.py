@@ -44,6 +44,8 @@ class Traction:
     """The same by the slope of the film [-]."""
     load: float
     """Normal load w [N]."""
+    sheared: float
+    """Size of the mid-film stress, whatever its direction is at each place, over the load [-]."""
     friction_power: float
     """Power that the surfaces transfer to the film in the loaded zone [W]."""
     surroundings: Surroundings | None = None
@@ -64,8 +66,8 @@ class Traction:
 
     @property
     def credible(self) -> bool:
-        """Whether the coefficient is physical: at most 0.1 at mid-film."""
-        return self.size <= LARGEST_CREDIBLE
+        """Whether the friction at mid-film is physical: at most 0.1, also that of spin alone."""
+        return max(self.size, self.sheared) <= LARGEST_CREDIBLE
 
     @property
     def closure_error(self) -> float:
@@ -128,6 +130,8 @@ def traction(result: Solution) -> Traction | None:
         rolling=0.5 * push / load,
         rolling_by_film=0.5 * lift / load,
         load=load,
+        sheared=integral(np.hypot(shear.mid_film - rubbed, np.where(meet, 0.0, shear.across)))
+        / load,
         friction_power=power,
         surroundings=surroundings(result, shear, wet - area, load) if motion.is_plain else None,
         **others,

@@ -9,7 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
-from tehl.base.typing import Array
+from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
 from tehl.kernels import cavities, reynolds, transfer
 from tehl.kernels.faces import STEADILY, Stencil
@@ -145,13 +145,7 @@ class Conserving(ZeroPressure):
 
     def limit(self, level: Wetted, factors: Factors | Heated) -> None:
         """Take no tangents beside partly filled nodes: these pass on the flow that comes."""
-        near = level.film.partial > 0
-        for _ in range(BESIDE_CAVITIES):
-            grown = near.copy()
-            for axis in (near.T, grown.T), (near, grown):
-                axis[1][1:] |= axis[0][:-1]
-                axis[1][:-1] |= axis[0][1:]
-            near = grown
+        near = around(level.film.partial > 0)
         factors.stretch_x[near] = factors.stretch_y[near] = 1.0
 
     def held(self, level: Wetted) -> Array:
@@ -210,6 +204,23 @@ class Conserving(ZeroPressure):
         smoother.frozen[:], smoother.ends[:] = 0, level.grid.nx - 1
         level.is_stale = True
         return rests
+
+
+def around(nodes: BoolArray) -> BoolArray:
+    """Return some nodes, and those up to `BESIDE_CAVITIES` around them.
+
+    Parameters
+    ----------
+    nodes : array of bool, (ny, nx)
+        Such as those of cavities.
+    """
+    for _ in range(BESIDE_CAVITIES):
+        grown = nodes.copy()
+        for axis in (nodes.T, grown.T), (nodes, grown):
+            axis[1][1:] |= axis[0][:-1]
+            axis[1][:-1] |= axis[0][1:]
+        nodes = grown
+    return nodes
 
 
 def set_orders(level: Wetted) -> None:

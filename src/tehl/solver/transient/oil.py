@@ -18,7 +18,7 @@ from tehl.operators.reynolds import (
     upstream,
 )
 from tehl.solver.cycle.level import Level
-from tehl.solver.physics.cavity import oil_flow
+from tehl.solver.physics.cavity import around, oil_flow
 
 FOLLOWING_TIME = 1.0
 """Time in which the mass that keeps its own wedge follows the film [a_x/u_m]: a part of a passage.
@@ -143,15 +143,15 @@ class TurningOil(Oil):
         self.weights = level.balance if order > 2 else of_second_order(level.balance)
         partial, second = level.film.partial.copy(), level.film.second.copy()
         self.marks = level.film._replace(partial=partial, second=second)
-        self.limited = level.stencil.conserves > 0
         super().__init__(level, stride, order, schedule)
 
     def brought(self, number: int) -> Array:
         """Return the known terms of wedge and squeeze in a step, as of `Oil`."""
         passed, speed = self.schedule.passed(number), self.schedule.moments[number].speed
         assert passed is not None  # no surface that spins moves along x alone
+        fronts = around(self.level.film.p == 0.0) if self.level.stencil.conserves else None
         last, before = (
-            part * self.carrier.carried(mass - self.steady, way, limited=self.limited)
+            part * self.carrier.carried(mass - self.steady, way, fronts)
             for part, mass, way in zip((2.0, 0.5), (self.now, self.before), passed, strict=True)
         )
         wedge = self._wedge_at(speed)
