@@ -2,22 +2,20 @@
 
 from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel
-from tehl.kernels.faces import Stencil, both_x, both_y
+from tehl.kernels.faces import MARK_THIRD_ORDER, Stencil, both_x, both_y
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import (
-    MARK_THIRD_ORDER,
     beyond,
     clear,
-    flow_from,
     inflow,
     inner_end,
     line_operator,
-    passed_on,
     row_above,
     row_below,
     sides,
 )
+from tehl.kernels.turning import flow_from, passed_on
 
 
 @kernel

@@ -12,6 +12,8 @@ CLOSED, WRAPPED = 2, 4
 where the film goes on with that of the other end, for which both are added: the last row is the
 first one again."""
 STEADILY, IN_TIME = 1, 2
+MARK_SECOND_ORDER, MARK_THIRD_ORDER = 1, 2
+"""Marks of the nodes that pass on oil with second and with third order where it is conserved."""
 MOST_OPENING, NO_FILM = 100.0, 1e-30
 """Largest ratio of the films of two lines of a roller in the mean of their conductances, as
 iterates may have none; and what keeps it finite."""
@@ -108,3 +110,17 @@ def both_x(stencil: Stencil, west: float, east: float) -> float:
         geometric = 2.0 * sqrt(west * east)
         return geometric + (west + east - geometric) / 3.0 if east > west else geometric
     return west + east
+
+
+@helper
+def third_beyond(stencil: Stencil, i: int, di: int) -> float:
+    """Return the weight of the third difference at the face downstream of column i."""
+    if di > 0:
+        return stencil.third if i > stencil.fore else 0.5 * stencil.third
+    return third_at(stencil, i)
+
+
+@helper
+def third_at(stencil: Stencil, i: int) -> float:
+    """Return the weight of the third difference at the east face of column i."""
+    return stencil.third if i < stencil.fore else 0.5 * stencil.third

@@ -31,13 +31,13 @@ from tehl.kernels.reynolds import (
     curved_wedge,
     flux_weights,
     inner_end,
-    is_second,
     join_ends,
     line_operator,
     row_above,
     row_below,
     sides,
 )
+from tehl.kernels.turning import is_second
 
 Span = tuple[int, int]
 

@@ -19,12 +19,20 @@ edge with p = 0. Fields are those of `tehl.kernels.properties`.
 
 from tehl.base.typing import Array, FlagArray
 from tehl.kernels.compiled import helper, kernel, summing_helper
-from tehl.kernels.faces import CLOSED, STEADILY, WRAPPED, Stencil, both_x, both_y
+from tehl.kernels.faces import (
+    CLOSED,
+    MARK_THIRD_ORDER,
+    STEADILY,
+    WRAPPED,
+    Stencil,
+    both_x,
+    both_y,
+    third_at,
+    third_beyond,
+)
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
-
-MARK_SECOND_ORDER, MARK_THIRD_ORDER = 1, 2
-"""Marks of the nodes that pass on oil with second and with third order where it is conserved."""
+from tehl.kernels.turning import subtract_curved_flux
 
 
 @helper
@@ -89,7 +97,7 @@ def line_operator(film: Film, stencil: Stencil, j: int, out: Array, place: tuple
     _line_flow(film, stencil, j, out, place)
     if film.speed.shape[0] > 0:
         if stencil.conserves == STEADILY:
-            _subtract_curved_flux(film, stencil, j, out, place)
+            subtract_curved_flux(film, stencil, j, out, place)
             return
         for i in range(1, place[1]):
             out[place[0], i] -= curved_wedge(film, stencil, j, i)
@@ -151,28 +159,14 @@ def _difference(film: Film, stencil: Stencil, node: tuple[int, int], way: tuple[
     far_j, far_i, curved = j + 2 * dj, i + 2 * di, 0.0
     if stencil.third > 0.0:
         after = rho[j - dj, i - di] * h[j - dj, i - di]
-        curved = _third_beyond(stencil, i, di) * (after - 2.0 * here + west)
+        curved = third_beyond(stencil, i, di) * (after - 2.0 * here + west)
     if far_j < 0 or far_j >= ny or far_i < 0 or far_i >= nx:
         w0, w1 = stencil.w0 - stencil.w2, stencil.w1 + 2.0 * stencil.w2
         return w0 * here + w1 * west + curved
     far = rho[far_j, far_i] * h[far_j, far_i]
     if stencil.third > 0.0:
-        curved -= _third_beyond(stencil, i + di, di) * (here - 2.0 * west + far)
+        curved -= third_beyond(stencil, i + di, di) * (here - 2.0 * west + far)
     return stencil.w0 * here + stencil.w1 * west + stencil.w2 * far + curved
-
-
-@helper
-def _third_beyond(stencil: Stencil, i: int, di: int) -> float:
-    """Return the weight of the third difference at the face downstream of column i."""
-    if di > 0:
-        return stencil.third if i > stencil.fore else 0.5 * stencil.third
-    return _third_at(stencil, i)
-
-
-@helper
-def _third_at(stencil: Stencil, i: int) -> float:
-    """Return the weight of the third difference at the east face of column i."""
-    return stencil.third if i < stencil.fore else 0.5 * stencil.third
 
 
 @helper
@@ -189,7 +183,7 @@ def _subtract_third(
     mass = rho[j, 1] * h[j, 1]
     for i in range(1, end):
         after = rho[j, i + 1] * h[j, i + 1]
-        bent = _third_at(stencil, i) * (after - 2.0 * mass + before)
+        bent = third_at(stencil, i) * (after - 2.0 * mass + before)
         out[row, i] -= bent - curved
         before, mass, curved = mass, after, bent
 
@@ -231,85 +225,6 @@ def _subtract_flux(
 
 
 @helper
-def _subtract_curved_flux(
-    film: Film, stencil: Stencil, j: int, out: Array, place: tuple[int, int]
-) -> None:
-    """Subtract the same of surfaces that spin: partly filled nodes pass on the oil that they hold.
-
-    It comes from both sides upstream (`tehl.kernels.cavities.fill`). Of the pressure flow that
-    leaves a film upstream along x, the part u/(u + v) comes back at once.
-    """
-    (row, end), u = place, film.speed[j]
-    back = -1 if u > 0.0 else 1
-    for i in range(1, end):
-        v = film.drift[i]
-        wedge = abs(u) * _flux_difference(film, stencil, (j, i), (0, back))
-        wedge += abs(v) * _flux_difference(film, stencil, (j, i), (-1 if v > 0.0 else 1, 0))
-        out[row, i] -= wedge
-        if film.partial[j, i + back] and not film.partial[j, i]:
-            part = abs(u) / (abs(u) + abs(film.drift[i + back]))
-            out[row, i] += part * flow_from(film, stencil, j, i + back, -back)
-
-
-@helper
-def flow_from(film: Film, stencil: Stencil, j: int, i: int, way: int) -> float:
-    """Return the pressure flow into a node from the next one along x, east (1) or west (-1)."""
-    eps = both_x(stencil, film.eps_x[j, min(i, i + way)], film.eps_x[j, max(i, i + way)])
-    return 0.5 * stencil.cx * eps * (film.p[j, i + way] - film.p[j, i])
-
-
-@helper
-def _flux_difference(
-    film: Film, stencil: Stencil, node: tuple[int, int], way: tuple[int, int]
-) -> float:
-    """Return the difference of the fluxes through two faces of a node as if it were full."""
-    before = node[0] + way[0], node[1] + way[1]
-    return passed_on(film, stencil, node, way, True) - passed_on(film, stencil, before, way, False)
-
-
-@helper
-def passed_on(
-    film: Film, stencil: Stencil, node: tuple[int, int], way: tuple[int, int], full: bool
-) -> float:
-    """Return the flux of oil through the face downstream of a node, over the speed and dx.
-
-    ``way``: rows and columns upstream; a partly filled node counts as full if ``full``.
-    """
-    (j, i), (dj, di), (ny, nx), rate = node, way, film.p.shape, stencil.w0 - stencil.w2
-    if film.partial[j, i] and not full:
-        found = rate * film.held[j, i]
-        ahead = 1 if film.speed[j] > 0.0 else -1
-        if di == 0 and 0 < i < nx - 1 and not film.partial[j, i + ahead]:
-            # of what the film behind along x brings, the rest comes back to that film
-            size = abs(film.speed[j]) + abs(film.drift[i])
-            found += flow_from(film, stencil, j, i, ahead) / size
-        return found
-    mass, after = film.rho[j, i] * film.h[j, i], (j - dj, i - di)
-    if not (0 <= j + dj < ny and 0 <= i + di < nx):  # on the edge
-        if stencil.w2 > 0.0 and film.second[after] and not film.partial[after]:
-            return rate * 0.5 * (mass + film.rho[after] * film.h[after])
-        return rate * mass
-    if not is_second(film, node, way):
-        return rate * mass
-    west = film.rho[j + dj, i + di] * film.h[j + dj, i + di]
-    found = rate * (1.5 * mass - 0.5 * west)
-    if film.second[j, i] == MARK_THIRD_ORDER and not (film.partial[after] or film.partial[j, i]):
-        east = film.rho[after] * film.h[after]
-        found += _third_beyond(stencil, i, di) * (east - 2.0 * mass + west)
-    return found
-
-
-@helper
-def is_second(film: Film, node: tuple[int, int], way: tuple[int, int]) -> bool:
-    """Return whether a node passes on oil with second order where the surfaces spin."""
-    (j, i), (dj, di), (ny, nx) = node, way, film.p.shape
-    if not film.second[j, i] or film.partial[j + dj, i + di]:
-        return False
-    inside = 0 <= j + 2 * dj < ny and 0 <= i + 2 * di < nx
-    return not (inside and film.partial[j + 2 * dj, i + 2 * di])
-
-
-@helper
 def beyond(film: Film, stencil: Stencil, node: tuple[int, int], before: float) -> float:
     """Return the flux through the east face of a node less its mass; ``before``: mass upstream."""
     j, i = node
@@ -317,7 +232,7 @@ def beyond(film: Film, stencil: Stencil, node: tuple[int, int], before: float) -
     found = 0.5 * (mass - before)
     if film.second[j, i] == MARK_THIRD_ORDER:
         curved = film.rho[j, i + 1] * film.h[j, i + 1] - 2.0 * mass + before
-        found += _third_at(stencil, i) / (stencil.w0 - stencil.w2) * curved
+        found += third_at(stencil, i) / (stencil.w0 - stencil.w2) * curved
     return found
 
 

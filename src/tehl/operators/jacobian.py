@@ -15,9 +15,8 @@ from scipy.sparse import csr_matrix, kron
 
 from tehl.base.typing import Array, BoolArray, IntArray
 from tehl.estimate.grid import Grid
-from tehl.kernels.faces import CLOSED, MOST_OPENING, NO_FILM, Stencil
+from tehl.kernels.faces import CLOSED, MARK_THIRD_ORDER, MOST_OPENING, NO_FILM, Stencil
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import MARK_THIRD_ORDER
 from tehl.operators.reynolds import Entrainment
 
 

@@ -13,9 +13,9 @@ from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.spin import spin_number
-from tehl.kernels.faces import CLOSED, IN_TIME, STEADILY, WRAPPED, Stencil
+from tehl.kernels.faces import CLOSED, IN_TIME, MARK_THIRD_ORDER, STEADILY, WRAPPED, Stencil
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import MARK_THIRD_ORDER, operator
+from tehl.kernels.reynolds import operator
 from tehl.operators.influence import Influence
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}

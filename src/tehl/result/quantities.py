@@ -437,23 +437,14 @@ TRANSIENT: tuple[Quantity, ...] = (
     Quantity("film.h_central_m.largest", name="film_central_largest", unit="nm"),
     Quantity("pressure.p_max_pa.value", name="pressure_max", unit="GPa"),
     Quantity("temperature.film_rise_max_k.value", name="film_rise_max", unit="K"),
-    Quantity("traction.extreme", name="traction_extreme", words={"bar": "at the extreme"}),
-    Quantity(
-        "traction_across.extreme",
-        name="traction_across_extreme",
-        words={"bar": "at the extreme"},
-    ),
-    Quantity(
-        "drilling.moment_n_m.extreme",
-        name="drilling_moment_extreme",
-        unit="N mm",
-        words={"bar": "at the extreme"},
-    ),
-    Quantity(
-        "rolling.moment_n_m.extreme",
-        name="rolling_moment_extreme",
-        unit="N mm",
-        words={"bar": "at the extreme"},
+    *(
+        Quantity(path, name=name, unit=unit, words={"bar": "at the extreme"})
+        for path, name, unit in (
+            ("traction.extreme", "traction_extreme", ""),
+            ("traction_across.extreme", "traction_across_extreme", ""),
+            ("drilling.moment_n_m.extreme", "drilling_moment_extreme", "N mm"),
+            ("rolling.moment_n_m.extreme", "rolling_moment_extreme", "N mm"),
+        )
     ),
 )
 """Extremes of a transient result that have error bars when it is certified."""

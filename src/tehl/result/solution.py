@@ -180,6 +180,8 @@ class Account:
     uncertainty: dict[str, Estimate] = field(default_factory=dict)
     """Of a certified result, dimensionless as the solver has them, rises in kelvin; ``certified``
     has them in SI."""
+    time: float | None = None
+    """When this film of a transient run was [s]; None of a steady one, and of that at the start."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -210,8 +212,6 @@ class Extras:
     """Stress below the surfaces; None if the case does not ask for it."""
     dynamics: FilmDynamics | None = None
     """Stiffness and damping; None unless the case states ``[dynamics]``."""
-    time: float | None = None
-    """When this film of a transient run was [s]; None of a steady one, and of that at the start."""
 
 
 class _Of(Generic[Value]):
@@ -282,6 +282,7 @@ class Solution:
     provenance = _Of[Provenance]("account")
     resolution = _Of[Resolution | None]("account")
     uncertainty = _Of[dict[str, Estimate]]("account")
+    time = _Of[float | None]("account")
     shear = _Of[FilmShear | None]("extras")
     heat = _Of[FilmHeat | None]("extras")
     heights = _Of[SurfaceHeights | None]("extras")
@@ -294,7 +295,6 @@ class Solution:
     passes = _Of[PassHistory | None]("extras")
     stress = _Of[BodyStress | None]("extras")
     dynamics = _Of[FilmDynamics | None]("extras")
-    time = _Of[float | None]("extras")
 
     @property
     def certified(self) -> dict[str, Estimate]:

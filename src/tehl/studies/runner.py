@@ -439,10 +439,9 @@ def _seconds(case: Case) -> float:
     seconds = expected_seconds(scaled, case.options) + _BASE_SECONDS
     grid, scales = finest_grid(scaled, options), scaled.scales
     mesh = grid.dx * scales.half_width_x, grid.dy * scales.half_width_y
-    in_time = transient_plan(scaled, options, mesh)
-    seconds += 0.0 if in_time is None else in_time.seconds
-    # over the work of the finest grid, to tight tolerances
-    return seconds * (3.5 if case.certify else 1.0)
+    if in_time := transient_plan(scaled, options, mesh):
+        seconds += in_time.seconds
+    return seconds * (3.5 if case.certify else 1.0)  # over the finest grid, to tight tolerances
 
 
 def _field_bytes(case: Case) -> int:
