@@ -197,6 +197,18 @@ def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
     )
 
 
+def cause_by_the_oil(scaled: ScaledProblem) -> LikelyCause | None:
+    """Return the law of the oil that is a likely cause of failure, None if they are credible.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Shear stress and viscosity are compared with those of oils.
+    """
+    found = [*_shear_stress(scaled)] if scaled.problem.is_coupled else []
+    return next(iter((*found, *_glass(scaled.problem))), None)
+
+
 def _body_temperature(problem: ContactProblem) -> Iterator[LikelyCause]:
     """Yield the body whose temperature is furthest from that of the oil, if it is far."""
     heat = problem.heat

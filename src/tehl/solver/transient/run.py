@@ -27,6 +27,7 @@ from tehl.solver.attempts import Attempt
 from tehl.solver.cost import Clock, end_of_time, working_time
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
+from tehl.solver.judging.diagnosis import cause_by_the_oil
 from tehl.solver.judging.measures import (
     is_resolved,
     mid_film_stress,
@@ -325,6 +326,10 @@ class Run:
             f"Take {other}more nodes (numerics.points), or more cycles per step "
             "(transient.max_cycles)."
         )
+        # short waves of the film grow at stresses that no oil bears, and finer meshes have them
+        oil, likely = cause_by_the_oil(self.stepper.solver.hierarchy.scaled), ""
+        if oil is not None:
+            hint, likely = oil.hint, f" Likely cause: {oil.message}"
         if error.cause == "stalled" and tolerance < error.change < NEARLY_CONVERGED:
             hint = Hint(
                 f"the pressure has nearly converged (now {tolerance:g}).",
@@ -336,6 +341,7 @@ class Run:
             message=(
                 f"The time step to {seconds:.4g} s did not converge on {grid_size((nx, ny))}: "
                 f"the last change of P is {error.change:.2g}. The steps before it are kept."
+                f"{likely}"
             ),
             hint=hint,
         )
