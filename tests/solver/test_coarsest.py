@@ -9,7 +9,7 @@ from tehl.contact.options import Options
 from tehl.solver.cycle import film_solver
 from tehl.solver.cycle.coarsest import CoarsestSolver
 from tehl.solver.cycle.start import from_dry_pressure
-from tehl.solver.judging.measures import nodal_film
+from tehl.solver.judging.measures import film_extremes
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.runs import multigrid
 
@@ -72,7 +72,7 @@ def test_a_coarsest_state_that_has_not_converged_is_no_start(points, monkeypatch
     usual.solve(force=False)
     monkeypatch.setattr(film_solver, "solve_coarsest", fails)
     assert found.solve(force=False)
-    assert nodal_film(found.finest) == pytest.approx(nodal_film(usual.finest), rel=2e-3)
+    assert film_extremes(found.finest) == pytest.approx(film_extremes(usual.finest), rel=2e-3)
 
 
 def test_rigid_contacts_with_scarce_oil_are_similar_whatever_their_load():

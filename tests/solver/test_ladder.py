@@ -34,7 +34,7 @@ from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, FAST, THIN
 from tehl.solver.judging.convergence import DivergedError
 from tehl.solver.judging.goal import Goal
-from tehl.solver.judging.measures import nodal_film
+from tehl.solver.judging.measures import film_extremes
 from tehl.solver.monitor import SILENT
 from tests.reference import heated_contact, moes_contact
 from tests.solver.rough import wavy
@@ -351,7 +351,7 @@ def test_a_film_too_thin_for_coarse_grids_converges_by_small_steps_of_relaxation
     hierarchy = Hierarchy.on(finest_grid(scaled, options), scaled, options, THIN)
     run = FilmSolver(hierarchy, thinnest)
     assert run.solve(force=True)
-    central, minimum = nodal_film(run.finest)
+    central, minimum = film_extremes(run.finest)
     assert 0.6 * central < minimum < central
     assert central == pytest.approx(hierarchy.expected_film, rel=0.3)
     # between less thin ones the usual strategies, which most of them take, come before

@@ -56,10 +56,11 @@ def test_lines_crowd_where_oil_is_scarce():
     """On uniform lines the minimum is 0.0055 and 0.0054 on as many and twice as many nodes."""
     short = roller(20.0, length="2 mm", profile={"shape": "lundberg"})
     tables = short.model_dump(exclude_none=True) | {"supply": {"ratio": 0.5}}
-    found = tehl.solve(case_from_tables(tables)[0], Options(points=(257, 129), wedge_order=3))
+    options = Options(points=(257, 129), wedge_order=3, accuracy="tight")
+    found = tehl.solve(case_from_tables(tables)[0], options)
     steps = np.diff(found.scaled.y)
     assert steps.max() > 3.0 * steps.min()
-    assert found.supplied.balance < 1e-4
+    assert found.supplied.balance < 1e-8
     # 0.0084 on 513 x 257 nodes
     assert found.film_scaled.minimum == pytest.approx(0.0084, rel=found.errors.minimum)
 
@@ -88,3 +89,13 @@ def test_cavities_between_lines_that_crowd_conserve_oil(tilt):
     plain = tehl.solve(short, options)
     assert found.film.central == pytest.approx(plain.film.central, rel=1e-4)
     assert found.film.minimum == pytest.approx(plain.film.minimum, rel=2e-3)
+
+
+def test_cycles_end_by_films_between_lines_that_crowd():
+    """Of the nodes at a steep end the smallest one is 17 % thicker on 129 x 65 than on 257 x 129.
+
+    By their changes cycles on 1025 x 513 nodes ended with an iteration error of 0.5 %, not 0.2.
+    """
+    steep = roller(50.0, length="4.4 mm", profile={"shape": "lundberg"})
+    found = tehl.solve(steep, Options(points=(257, 129), wedge_order=3))
+    assert found.history[-1].film_minimum == pytest.approx(found.film_scaled.minimum)

@@ -106,7 +106,7 @@ class CycleReport:
     """Relative error of the load balance [-]."""
     film_central: float
     film_minimum: float
-    """H at X = Y = 0 and smallest nodal H after this cycle [-]."""
+    """H at X = Y = 0 and smallest H after this cycle, at nodes, between lines that crowd [-]."""
     smoother: str
     """Setting of the relaxation that was used."""
     temperature_change: float = 0.0

@@ -33,7 +33,7 @@ from tehl.solver.judging.convergence import (
 from tehl.solver.judging.extrapolation import Outputs, extrapolated, outputs_of
 from tehl.solver.judging.film_errors import estimated_errors
 from tehl.solver.judging.goal import Goal
-from tehl.solver.judging.measures import is_resolved, nodal_film
+from tehl.solver.judging.measures import film_extremes, is_resolved
 from tehl.solver.monitor import SILENT, Monitor
 
 TOO_COARSE = 0.5
@@ -318,7 +318,7 @@ class FilmSolver(GridIteration):
             coarsest.update()
             self._discard(self.levels[:1])
         self.traces.append(GridTrace(columns=coarsest.grid.nx))
-        self.traces[0].note(*nodal_film(coarsest))
+        self.traces[0].note(*film_extremes(coarsest))
 
     def _start(self, coarse: Level, fine: Level) -> None:
         """Interpolate the coarser solution, or restart from the smooth film or the Hertz pressure.

@@ -34,7 +34,7 @@ from tehl.solver.judging.convergence import (
 from tehl.solver.judging.extrapolation import outputs_of
 from tehl.solver.judging.film_errors import estimated_errors
 from tehl.solver.judging.goal import Goal
-from tehl.solver.judging.measures import film_numbers, measured, nodal_film
+from tehl.solver.judging.measures import film_extremes, film_numbers, measured
 from tehl.solver.monitor import Monitor
 from tehl.solver.physics.thermal import Coupling
 
@@ -114,7 +114,7 @@ class GridIteration:
         self.traces[-1] = trace
         begins = len(levels) - 1 == self.roughness.first  # the first level with the heights
         done += self._raise_heights(levels, method) if begins else 0
-        trace.note(*nodal_film(fine))
+        trace.note(*film_extremes(fine))
         for number in range(1, self._most_steps(levels, method) + 1):
             method.begin()
             trace.add(self._iteration(levels, method.step, number + done), method.touching_share())
@@ -287,7 +287,7 @@ class GridIteration:
     ) -> CycleReport:
         residual = level.evaluate_residual()
         np.subtract(level.pressure, before, out=before)
-        central, minimum = nodal_film(level)
+        central, minimum = film_extremes(level)
         report = CycleReport(
             points=level.grid.points,
             cycle=number,

@@ -384,6 +384,13 @@ def is_resolved(level: Level) -> bool:
     return level.share.bounds_film or float(level.film.h.min()) > level.equations.floor
 
 
-def nodal_film(level: Level) -> tuple[float, float]:
-    """Return central and smallest nodal film of a level [-]."""
-    return central_value(level.grid, level.film.h), float(level.film.h.min())
+def film_extremes(level: Level) -> tuple[float, float]:
+    """Return central and smallest film of a level [-], at nodes.
+
+    Where lines crowd it is that between them: nodes sample the valley beside a steep end at random,
+    so that their changes from grid to grid say little.
+    """
+    grid, film = level.grid, level.film.h
+    if grid.crowding:
+        return central_value(grid, film), film_summary(grid, film).minimum
+    return central_value(grid, film), float(film.min())
