@@ -17,7 +17,6 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 import tehl
-from tehl.estimate.inlet_heating import thermal_loading
 from tehl.post.thermal_effect import ThermalEffect, isothermal_reference, thermal_effect
 
 SPEEDS = (1.0, 2.0, 4.0, 8.0, 16.0)
@@ -56,7 +55,7 @@ if __name__ == "__main__":
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
     folder.mkdir(parents=True, exist_ok=True)
     rows = main()
-    loads = [thermal_loading(problem(speed)) for speed in SPEEDS]
+    loads = [problem(speed).thermal_loading for speed in SPEEDS]
     figure = Figure(figsize=(6.4, 4.2), layout="constrained")
     axes = figure.add_subplot(xlabel="entrainment speed [m/s]", ylabel="film / isothermal film")
     print(f"{'speed [m/s]':<18}", *(f"{speed:7g}" for speed in SPEEDS))

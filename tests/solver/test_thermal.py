@@ -259,11 +259,13 @@ def test_sweeps_keep_the_temperature_of_oil_that_flows_back_and_sideways():
     attempt, _ = try_strategies(problem, options, monitor=SILENT, rough=False)
     state = attempt.run.coupling.state
     assert state is not None
+    for _ in range(10):
+        state.sweep(3)
     before = state.temperature.copy()
     for _ in range(10):
         state.sweep(3)
-    assert before.max() - 383.0 > 0.4
-    assert np.abs(state.temperature - before).max() < 0.1
+    assert 0.4 < before.max() - 383.0 < 1.0
+    assert np.abs(state.temperature - before).max() < 0.02
 
 
 def test_temperatures_of_a_very_hot_inlet_rest_between_the_layers_of_its_oil():

@@ -13,7 +13,7 @@ from tehl.kernels.properties import Film
 def subtract_curved_flux(
     film: Film, stencil: Stencil, j: int, out: Array, place: tuple[int, int]
 ) -> None:
-    """Subtract the same of surfaces that spin: partly filled nodes pass on the oil that they hold.
+    """Subtract the wedge of surfaces that spin: partly filled nodes pass on the oil that they hold.
 
     It comes from both sides upstream (`tehl.kernels.cavities.fill`). Of the pressure flow that
     leaves a film upstream along x, the part u/(u + v) comes back at once.

@@ -127,7 +127,7 @@ def oil_of(level: Level, stride: int, order: int, schedule: Schedule) -> Oil:
 
 
 class TurningOil(Oil):
-    """The same of a mean motion that spins: each node follows its circle.
+    """Oil of a mean motion that spins: each node follows its circle.
 
     The motion has no divergence, so that the wedge is the derivative along it here too.
 
