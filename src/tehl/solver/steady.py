@@ -80,7 +80,9 @@ def solve(
         status = result.status
         unsure = status.kind in ("diverged", "stalled") or status.cause in WITHOUT_ERROR
         if options.points == "auto" and unsure:
-            result = _after_failure(result, attempt.reached_before, monitor, until)
+            reached = attempt.reached_before
+            del attempt  # frees its grids
+            result = _after_failure(result, reached, monitor, until)
     if not result.status.converged:
         raise ConvergenceError(result.status.message or "not converged", result)
     return result
