@@ -1,5 +1,6 @@
 """The live page in a browser: what an engineer does with it."""
 
+import contextlib
 import json
 import math
 import subprocess
@@ -7,7 +8,7 @@ import sys
 
 from tehl.explore.case_text import CaseText, template_case
 from tehl.io.templates import template_text
-from tests.browser.conftest import number, opened, solved, type_into, until
+from tests.browser.conftest import api, number, opened, solved, type_into, until
 
 BALL = template_case("ball-on-disc").text
 
@@ -201,8 +202,14 @@ def measured(page):
     rows = [",".join(f"{height:.4f}" for height in line) for line in lines]
     file = {"name": "honed.csv", "mimeType": "text/csv", "buffer": "\n".join(rows).encode()}
     page.get_by_role("button", name="Surfaces").click()
-    page.get_by_role("button", name="Measured surface").click()
-    page.get_by_label("unit of heights").fill("um")
+    unit = page.get_by_label("unit of heights")
+
+    for _ in range(3):  # a click while the controls are drawn anew is lost
+        page.get_by_role("button", name="Measured surface").click()
+        with contextlib.suppress(api.TimeoutError):
+            unit.wait_for(timeout=10_000)
+            break
+    unit.fill("um")
     page.get_by_label("distance of points").fill("8 um")
     page.locator("input[type=file]").set_input_files(file)
     page.locator(".preview-words", has_text="Sq =").wait_for()

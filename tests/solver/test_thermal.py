@@ -268,6 +268,7 @@ def test_sweeps_keep_the_temperature_of_oil_that_flows_back_and_sideways():
     assert np.abs(state.temperature - before).max() < 0.02
 
 
+@pytest.mark.slow
 def test_temperatures_of_a_very_hot_inlet_rest_between_the_layers_of_its_oil():
     # 46 m/s, a thermal loading of 57: with nine nodes across the film they swing by several kelvin
     problem = any_contacts.contact(151, 52)[2].model_copy(update={"supply": None})
