@@ -35,7 +35,7 @@ from tehl.result.registry import bar_names
 from tehl.result.solution import Account, CycleReport, Extras, Solution
 from tehl.result.transient import Frames, History, HistoryBars, Profiles, TransientSolution
 
-FORMAT_VERSION = 4
+FORMAT_VERSION = 5
 STEADY, TRANSIENT = KINDS = ("steady", "transient")
 """Values of the attribute ``tehl_kind``."""
 
