@@ -262,6 +262,22 @@ def test_a_passing_dent_is_followed_in_time():
         moving_stress(make_transient(frames=False))
 
 
+def test_tractions_that_no_oil_transmits_do_not_load_the_bodies():
+    """Neither along x nor along y: what is left is the slope of the film."""
+    run = make_transient(points=65)
+
+    def loaded(traction: float, across: float):
+        still = np.zeros_like(run.history.time)
+        changes = {"traction": still + traction, "traction_across": still + across}
+        return frame_loads(replace(run, history=replace(run.history, **changes)), 0, 1)
+
+    none, small, wrong = loaded(0.0, 0.0), loaded(0.03, 0.04), loaded(-263.0, 0.04)
+    difference = small.traction_y - none.traction_y
+    np.testing.assert_allclose(difference, 0.04 * none.pressure, rtol=1e-9)
+    np.testing.assert_array_equal(wrong.traction_x, none.traction_x)
+    np.testing.assert_array_equal(wrong.traction_y, none.traction_y)
+
+
 def test_a_run_in_time_stores_the_shear_stress_of_its_fields(tmp_path):
     """At time zero the loads are those of the steady film at the start, for a film that thins."""
     lubricant = CASE["lubricant"] | {"shear": {"law": "eyring", "stress": "8 MPa"}}

@@ -103,9 +103,10 @@ def frame_loads(run: TransientSolution, frame: int, body: int) -> SurfaceLoads:
     total = pressure / (1.0 - share) if problem.asperities is not None else pressure
     stored, sign = run.frames.stress, 1.0 if body == 1 else -1.0
     sliding = traction * total if stored is None else np.where(pressure > 0.0, stored[frame], 0.0)
-    if not np.hypot(traction, run.history.traction_across[step]) <= LARGEST_CREDIBLE:
+    across = run.history.traction_across[step]
+    sideways = across * total
+    if not np.hypot(traction, across) <= LARGEST_CREDIBLE:
         sliding, sideways = np.zeros_like(total), np.zeros_like(total)
-    sideways = run.history.traction_across[step] * total
     rubbed = 0.0 * total
     if problem.asperities is not None:
         rubbed += problem.asperities.friction * share * total
@@ -118,6 +119,5 @@ def frame_loads(run: TransientSolution, frame: int, body: int) -> SurfaceLoads:
     along_y, along_x = slope_across(film, pressure), np.gradient(pressure, film.x, axis=1)
     half = 0.5 * film.film_thickness
     part = parts_of_cells(film)
-    along = sign * sliding - half * along_x
-    across = sign * sideways - half * along_y
-    return SurfaceLoads(part * total, part * along, part * across)
+    pushed_x, pushed_y = sign * sliding - half * along_x, sign * sideways - half * along_y
+    return SurfaceLoads(part * total, part * pushed_x, part * pushed_y)
