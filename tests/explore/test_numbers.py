@@ -30,6 +30,13 @@ def test_a_number_by_formula_is_marked_and_keeps_its_height():
     assert "error-bar" in number_html(one, None)
 
 
+def test_an_error_far_above_the_value_has_no_digits():
+    one = Number(key="a", name="a", symbol="a", value=40.0, unit="nm", error=5.9e5)
+    shown = number_html(one, None)
+    assert shown.count("error above 1000 %") == 1
+    assert "±" not in shown
+
+
 def touching(points):
     """Return a contact through a boundary film on a grid."""
     tables = tables_of_text(template_text("boundary-film"))

@@ -2,12 +2,16 @@
 
 from functools import cache
 
+import pytest
+
 from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.api.solvers import solve
+from tehl.base.typing import Array
 from tehl.contact.options import Options
 from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
+from tehl.operators.energy import FilmState
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import SMOOTH
@@ -33,3 +37,15 @@ def multigrid(problem: ContactProblem, options: Options) -> FilmSolver:
     scaled = ScaledProblem.of(problem)
     grid = finest_grid(scaled, options)
     return FilmSolver(Hierarchy.on(grid, scaled, options, FAST), SMOOTH[0])
+
+
+def rubbed_states(monkeypatch: pytest.MonkeyPatch) -> list[FilmState]:
+    """Return the list to which films whose solids rub are added as they do."""
+    states, rub = list[FilmState](), FilmState.rub
+
+    def note(self: FilmState, *given: Array) -> None:
+        rub(self, *given)
+        states.append(self)
+
+    monkeypatch.setattr(FilmState, "rub", note)
+    return states

@@ -13,12 +13,12 @@ from tehl.api.results import Result
 from tehl.api.solvers import solve, solve_transient
 from tehl.cli.text import as_text
 from tehl.contact.options import Options
-from tehl.operators.energy import FilmState
 from tehl.post import boundary_contact
 from tehl.post.bodies import heat_into_bodies
 from tehl.post.boundary_contact import touching_nodes
 from tehl.post.roughness import rough_film
 from tehl.report.page import report_text
+from tests.solver.runs import rubbed_states
 
 TIGHT = Options(points=65, accuracy="tight")
 BESIDE_CONTACT = ("heat", "thinning", "starved", "conserving", "asperities")
@@ -81,13 +81,7 @@ def grooves(*features: str, thickness: float = 1.2e-7) -> ContactProblem:
 
 def test_the_heat_of_a_contact_is_its_friction(monkeypatch):
     """Flux into both surfaces = friction coefficient, load where they touch, sliding speed."""
-    states, rub = [], FilmState.rub
-
-    def note(self: FilmState, *given: np.ndarray) -> None:
-        rub(self, *given)
-        states.append(self)
-
-    monkeypatch.setattr(FilmState, "rub", note)
+    states = rubbed_states(monkeypatch)
     found = solve(grooves("boundary", "heat"), TIGHT)
     state, scales = states[-1], found.scales
     flux = state.film.flux_unit * state.grid.unfold(sum(state.solids.rubbing).T)

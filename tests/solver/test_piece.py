@@ -319,7 +319,7 @@ def test_a_piece_has_as_many_lines_as_its_waves_need():
         ),
         ({"slide_roll_ratio": 2.0}, {"thermal": {"temperature": "40 degC"}}, "at rest"),
         ({"type": "point"}, {}, "has ends"),
-        ({"ends": "periodic", "spin_1": "10 rpm"}, {}, "distance along the line"),
+        ({"ends": "periodic", "spin_1": "10 rpm"}, {}, "all lines of a roller have one speed"),
     ],
 )
 def test_what_a_piece_cannot_state_is_said_in_one_sentence(kind, stated, reason):

@@ -11,6 +11,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.spin import spin_error
 from tehl.post.film import mass_flow
 from tests.reference import moes_contact, read
+from tests.solver.test_line import line
 
 SPIN = read("directions")["spin"]
 RATIO = 1.0 / 0.351771642
@@ -115,3 +116,8 @@ def test_what_follows_oil_along_x_alone_is_refused():
     stated = spinning(0.3).model_dump(mode="json", exclude_none=True) | {"dynamics": {}}
     with pytest.raises(ValueError, match="linearised along x alone"):
         ContactProblem.model_validate(stated)
+
+
+def test_a_line_does_not_spin():
+    with pytest.raises(ValueError, match="distance along the line, without end"):
+        line(50.0, 5.0, contact={"spin_1": 10.0})

@@ -11,11 +11,11 @@ from tehl.api.results import Result
 from tehl.api.solvers import solve, solve_transient
 from tehl.cli.text import as_text
 from tehl.contact.options import Options
-from tehl.operators.energy import FilmState
 from tehl.post.bodies import heat_into_bodies
 from tehl.solver.judging.outputs import oil_balance
 from tehl.solver.monitor import SILENT
 from tehl.solver.steady import try_strategies
+from tests.solver.runs import rubbed_states
 
 OTHERS = ("starved", "conserving", "boundary")
 SPIN = 600.0
@@ -90,13 +90,7 @@ def test_the_moment_of_a_dry_contact_that_spins_is_the_closed_one():
 
 
 def test_the_heat_of_a_contact_that_spins_is_its_friction(monkeypatch):
-    states, rub = [], FilmState.rub
-
-    def note(self: FilmState, *given: np.ndarray) -> None:
-        rub(self, *given)
-        states.append(self)
-
-    monkeypatch.setattr(FilmState, "rub", note)
+    states = rubbed_states(monkeypatch)
     tables = {
         "contact": {"entrainment_speed": 1.0, "spin_1": 800.0, "spin_2": -400.0},
         "contact_film": {"thickness": 3e-7},

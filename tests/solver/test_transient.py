@@ -411,8 +411,8 @@ def test_a_step_with_a_film_that_is_not_finite_fails(place, value):
 def test_a_step_of_an_oil_that_shears_beyond_its_stress_names_its_law():
     """Sliding as fast as rolling, a heated Newtonian line diverges on 1025 nodes at step 60.
 
-    Waves of six nodes grow in its inlet, the same with either order and half as many steps; of an
-    Eyring oil all 830 steps converge.
+    Waves of six nodes grow inside the film, at X = -0.65, the same with either order and half as
+    many steps; of an Eyring oil all 830 steps converge.
     """
     tables = moes_contact(50.0, 8.0).model_dump(exclude_none=True)
     tables["contact"] = {"type": "line", "radius": 0.01, "moes_load": 50.0, "moes_speed": 8.0}

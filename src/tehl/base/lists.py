@@ -37,7 +37,15 @@ class Spelling:
     encoding: str = "utf-8"
 
     def write(self, frame: "pd.DataFrame", path: Path) -> None:
-        """Write a frame as CSV, and numbers in its texts alike."""
+        """Write a frame as CSV, and numbers in its texts alike.
+
+        Parameters
+        ----------
+        frame : pandas.DataFrame
+            Numbers, and texts as they were read, with decimal points.
+        path : Path
+            The file.
+        """
         if self.decimal == ",":
             texts = frame.select_dtypes(exclude="number").columns
             frame = frame.assign(**{name: frame[name].map(_with_comma) for name in texts})

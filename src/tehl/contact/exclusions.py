@@ -12,11 +12,14 @@ SOLID_PART = (
     "computed"
 )
 """Why stiffness and damping are not computed where surfaces touch."""
-SPIN_OF_LINES = (
-    "with spin the speed would change by spin times distance along the line, without end; state a "
-    "roller in slices, each a line of its own speed"
-)
-"""Why lines do not spin, and rollers neither."""
+SPIN_OF_LINES = {
+    True: "with spin the speed would change by spin times distance along the line, without end",
+    False: (
+        "so far all lines of a roller have one speed; state it in slices, each a line of its own "
+        "speed"
+    ),
+}
+"""Why lines do not spin, and why rollers do not yet, by whether the contact is a line."""
 LARGEST_TURN = 0.8
 """Largest spin of a heated surface times a_y over its speed: beyond it rows of the contact have too
 little speed along x for their heat to be followed from station to station."""
@@ -48,7 +51,7 @@ def check_motion(problem: PointContact) -> None:
         ),
         f'contact.type = "{contact.type}"': (
             contact.has_lines and turned != ["sliding_angle"],
-            SPIN_OF_LINES,
+            SPIN_OF_LINES[contact.is_line],
         ),
         'contact.ends = "mirrored"': (
             contact.ends == "mirrored",

@@ -11,6 +11,7 @@ from nicegui import ui
 from tehl.explore.elements import button, mark
 from tehl.explore.numbers import Number, value_of
 from tehl.explore.tab import Tab
+from tehl.report.readable import LARGEST_SHOWN_ERROR, error_text
 
 _BAR_RANGE = 0.3
 """Relative deviation at the ends of the drawn error bar."""
@@ -108,6 +109,9 @@ def value_text(one: Number) -> str:
         return f'<b>{_rounded(one.value, 3)}</b>{unit} <span class="bar">by formula</span>'
     if one.error is None or not math.isfinite(one.error) or one.value == 0.0:
         return f"<b>{_rounded(one.value, 4)}</b>{unit}"
+    if abs(one.error) > LARGEST_SHOWN_ERROR:
+        words = f"error {error_text(one.error)}"
+        return f'<b>{_rounded(one.value, 4)}</b>{unit} <span class="bar">{words}</span>'
     half = abs(one.value * one.error)
     places = max(0, 1 - math.floor(math.log10(half))) if half > 0 else 4
     value, bar = (f"{number:.{places}f}".replace("-", "−") for number in (one.value, half))
@@ -156,7 +160,7 @@ def _bar(one: Number) -> str:
     if one.error is not None:
         half = min(abs(one.error) / _BAR_RANGE, 1.0) * 50.0
         parts.insert(1, f'<path d="M{50 - half:.2f} 7H{50 + half:.2f}" class="band"/>')
-        words = f"error bar {100 * abs(one.error):.2g} %"
+        words = f"error bar {error_text(one.error)}"
     for author, value in one.formulas:
         away = (value / one.value - 1.0) / _BAR_RANGE
         if abs(away) <= 1.0:

@@ -20,8 +20,6 @@ _INPUTS = {
     "m": ((1.0, 1.0, "m"), (1e-3, 1e3, "mm"), (1e-7, 1e6, "µm"), (1e-12, 1e9, "nm")),
 }
 """By SI unit, from the largest: smallest magnitude, factor and unit."""
-
-
 LARGEST_SHOWN_ERROR = 10.0
 """Relative error from which on its value says nothing: that of a film that has not converged."""
 

@@ -118,7 +118,7 @@ class Climb:
             while attempt.run.wanted is not None and not self.goal.is_over:
                 plan = plan.on_points(*attempt.run.wanted)
                 self.monitor.message(f"another grid: {grid_size(plan.shape[::-1])}")
-                del attempt  # frees its grids, and those of the best one are not kept either
+                del attempt  # frees its grids, unless it is the best one: that keeps its finest
                 best = best.at_rest()
                 attempt = self._attempt(plan, strategy, force=force)
                 best = _better(best, attempt)

@@ -225,7 +225,7 @@ class FilmSolver(GridIteration):
 
     def rest(self) -> None:
         """Free what cycles need beside the finest grid, while other grids are tried."""
-        self.at_rest = self.errors()
+        self.known_errors = (self.errors(),)
         self.hierarchy.free_coarser()
         self.coupling.reset(())
         self.solved = ()

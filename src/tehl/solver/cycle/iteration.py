@@ -80,7 +80,7 @@ class GridIteration:
         self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
         self.traces: list[GridTrace] = []  # of each grid, coarsest first
         self.from_hertz = False  # the present grid started from the Hertz pressure
-        self.at_rest: ErrorEstimate | None = None  # errors of a run whose coarser grids are free
+        self.known_errors: tuple[ErrorEstimate | None] | None = None  # where coarser grids are free
         self.balance = Balance(
             self.options,
             exactly=strategy.newton,
@@ -155,6 +155,7 @@ class GridIteration:
         """Make the last of ``levels`` the finest, and iterate until it has converged or stalled."""
         del self.levels[len(levels) :]
         trace, method = self.traces[-1], method_of(self._visit(levels))
+        trace.outputs = None  # of the film before
         while not self._is_done(trace, finest=True):
             number = len(trace.reports) + 1
             if number > self.options.max_cycles:
@@ -191,8 +192,8 @@ class GridIteration:
 
     def errors(self) -> ErrorEstimate | None:
         """Return estimated errors of the film on the last grid; None before its first cycle."""
-        if self.at_rest is not None:
-            return self.at_rest
+        if self.known_errors is not None:
+            return self.known_errors[0]
         level = self.levels[len(self.traces) - 1]
         found = estimated_errors(level, self.traces, self.roughness, self.hierarchy)
         if found is None or self.balance.oil_error <= LARGEST_OIL_ERROR:

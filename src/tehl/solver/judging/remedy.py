@@ -46,7 +46,8 @@ def solved_on_other_nodes(
     failed, monitor, end
         As in `working_hint`.
     solve : callable
-        Returns the result from nodes (nx, ny) on within some seconds, and raises none.
+        Returns the result of the contact, converged or not, that begins with nodes (nx, ny) and
+        may go on to finer grids within some seconds.
     """
     if failed.status.kind not in ("diverged", "stalled") or not failed.history:
         return None
