@@ -544,6 +544,7 @@ def test_dry_asperities_follow_the_film_that_they_move():
     assert film.p.max() == 0.0
 
 
+@pytest.mark.slow
 def test_cycles_are_combined_where_asperities_share_the_load_with_a_steep_spike():
     """Alone they move the pressure at the spike to and fro, on all grids from 321 nodes on."""
     wide = Options.model_validate(

@@ -223,7 +223,7 @@ def test_the_traction_of_a_coarse_grid_without_heat_is_left_out_of_its_error_bar
     assert found.film_rise_max is None or found.film_rise_max < 1.0
 
 
-@pytest.mark.parametrize("angle", [0.0, math.pi / 4])
+@pytest.mark.parametrize("angle", [0.0, pytest.param(math.pi / 4, marks=pytest.mark.slow)])
 def test_ripples_of_a_wave_have_error_bars_that_hold(angle):
     wave = {"type": "wave", "amplitude": 6e-8, "wavelength": 5e-5, "angle": angle}
     case = moes_contact(75.0, 11.0).model_dump(exclude_none=True)

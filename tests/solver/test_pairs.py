@@ -170,6 +170,7 @@ def test_a_film_that_may_touch_is_heated_on_coarser_grids_too():
     assert rises[65] == pytest.approx(rises[129], rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_contact_that_spreads_as_it_heats_is_followed_to_its_end():
     """Hot oil leaves it, surfaces touch where it was and rub: its rim moves a little per cycle."""
     _, _, problem = any_contacts.contact(1, 53, tables_at_once=True)

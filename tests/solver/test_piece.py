@@ -169,7 +169,7 @@ def test_the_thinnest_film_may_be_between_both_ends(shift):
     assert -1.0 <= found.minimum_at[1] <= 1.0
 
 
-@pytest.mark.parametrize("angle", [40.0, 90.0])
+@pytest.mark.parametrize("angle", [40.0, pytest.param(90.0, marks=pytest.mark.slow)])
 def test_surfaces_that_slide_along_a_piece_leave_it_at_one_end_and_come_back_at_the_other(angle):
     """Oil and heat do: a shift of the wave shifts both, and a smooth piece is a line contact."""
 

@@ -57,12 +57,17 @@ def test_no_setting_is_named_if_none_converges():
 
 
 def test_no_hint_removes_heat_or_names_another_oil():
-    # Barus, L = 14, Carreau, pure sliding, heated
-    problem, _ = contact(12, 225)
-    with pytest.raises(ConvergenceError) as caught:
-        solve(problem, Options(error=0.1))
-    settings = caught.value.result.status.hint.settings
-    assert not {"thermal", "lubricant.shear"} & set(settings)
+    problem, _ = contact(12, 225)  # Barus, L = 14, Carreau, pure sliding, heated
+    tried, failed = [], replace(failure(100.0, points=33).result, problem=problem)
+
+    def fails(changed: ContactProblem, _: Options):
+        tried.append(changed)
+        raise InputError("no memory")
+
+    assert working_hint(replace(failed, options=Options()), fails, SILENT, math.inf).settings == {}
+    assert {one.lubricant.viscosity.law for one in tried} == {"barus", "roelands"}
+    assert all(one.thermal == problem.thermal for one in tried)
+    assert all(one.lubricant.shear == problem.lubricant.shear for one in tried)
 
 
 def test_bodies_of_stated_temperature_do_not_break_the_search_for_a_hint():

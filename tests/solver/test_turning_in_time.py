@@ -43,7 +43,7 @@ def run(motion: str, duration: float, **transient: object) -> TransientResult:
 
 @pytest.mark.parametrize(
     ("motion", "course"),
-    [("across", "load"), ("both", "load"), ("apart", "load"), ("both", "entrainment_speed")],
+    [("across", "load"), ("apart", "load"), ("both", "entrainment_speed")],
 )
 def test_a_film_that_has_changed_slowly_is_the_steady_one(motion, course):
     """To the accuracy of the plain film: 1e-9 under the load, 1e-4 at another speed."""
@@ -90,7 +90,7 @@ def test_forces_of_sliding_across_are_those_of_sliding_along_turned():
 def test_a_heated_film_keeps_its_temperature_while_nothing_changes():
     tables = {"spin_1": 600.0, "spin_2": -600.0, "sliding_angle": 0.5, "entrainment_speed": 1.0}
     found = solve_transient(
-        case("heat", contact_table=tables, duration=4e-4, frames=0), Options(points=65)
+        case("heat", contact_table=tables, duration=2e-4, frames=0), Options(points=65)
     ).history
     rise = found.temperature_rise
     np.testing.assert_allclose(rise, rise[0], rtol=3e-3)
@@ -102,7 +102,7 @@ def test_heat_in_time_of_sliding_across_goes_to_both_sides_alike():
     """Surfaces of one material: turning the sliding by half a turn mirrors the film."""
     one, other = (
         solve_transient(
-            case("heat", "load", contact_table={"sliding_angle": angle}, duration=3e-4, frames=2),
+            case("heat", "load", contact_table={"sliding_angle": angle}, duration=1e-4, frames=2),
             Options(points=65),
         )
         for angle in (0.5 * np.pi, -0.5 * np.pi)
