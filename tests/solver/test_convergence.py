@@ -6,8 +6,10 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 
+from tehl.contact.options import Options
 from tehl.kernels.properties import Factors, Heated
 from tehl.result.solution import CycleReport
+from tehl.solver.cycle.iteration import GridIteration
 from tehl.solver.cycle.relaxation import STEEP, THIN, Relaxation
 from tehl.solver.judging.convergence import (
     LEAST_CONVERGENCE_RATE,
@@ -15,6 +17,7 @@ from tehl.solver.judging.convergence import (
     SECOND_RATE,
     Criteria,
     GridTrace,
+    converged,
     film_converged,
     recedes,
     touching_converged,
@@ -398,6 +401,25 @@ def test_cycles_whose_residual_hardly_falls_go_on(ratio: float, cycles: int, end
             )
         )
     assert film_converged(fine, coarse) is ends
+
+
+@pytest.mark.parametrize(("swing", "kept"), [(1.0, True), (100.0, False)])
+def test_a_film_that_rests_while_its_residual_grows_is_kept_with_a_larger_error(
+    swing: float, kept: bool
+) -> None:
+    """Single nodes may grow where the film has been found (an ellipse with spin, M = 258)."""
+    coarse, fine = GridTrace(), GridTrace()
+    coarse.note(0.1, 0.05)
+    for number in range(1, 6):
+        grown = replace(report(number, 1e-6 * 1.5**number), film_central=0.1, change=1e-3)
+        fine.add(replace(grown, film_minimum=0.05 * (1.0 + swing * 0.1**number)))
+    run = Mock(traces=[coarse, fine], options=Options(), strategy=Mock(gives_up=True, patience=1))
+    run.roughness.spare.return_value = run._negligible.return_value = 4e-3
+    run._coarser_trace.return_value = coarse
+    assert GridIteration._is_done(run, fine, finest=True)
+    assert converged(run.traces[-1], coarse, run.options) is kept
+    larger = run.traces[-1].minimum.iteration_error() / fine.minimum.iteration_error()
+    assert larger == pytest.approx(120.0 if kept else 1.0)
 
 
 @pytest.mark.parametrize(

@@ -2,19 +2,21 @@
 
 from dataclasses import replace
 from types import SimpleNamespace
+from unittest.mock import Mock
 
 import pytest
 
 from tehl.api.results import Result
 from tehl.cli.text import as_text
 from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
 from tehl.io.summary import summary
 from tehl.report.page import report_text
 from tehl.result.bars import ErrorEstimate
 from tehl.result.solution import Hint, Status
 from tehl.solver.judging.certify import _ending
-from tehl.solver.judging.verdict import is_film, no_film
-from tests.reference import DOMAIN
+from tehl.solver.judging.verdict import _no_film_status, is_film, no_film
+from tests.reference import DOMAIN, heated_contact
 
 FLOOR = 0.01
 VAGUE = Status(kind="converged", message="The minimum film is uncertain.", hint=Hint("Take more."))
@@ -69,6 +71,18 @@ def test_a_film_below_the_floor_is_reported_as_such():
 
 
 @pytest.mark.usefixtures("no_pictures")
+@pytest.mark.parametrize(("slip", "named"), [(1.2, True), (0.0, False)])
+def test_an_oil_under_incredible_stress_is_named_where_hot_asperities_would_touch(
+    slip: float, named: bool
+) -> None:
+    """Its heat makes the film thinner than the heights: another law of the oil, not others."""
+    run = SimpleNamespace(finest=level(0.001), hierarchy=Mock())
+    run.hierarchy.scaled = ScaledProblem.of(heated_contact(slip))
+    status = _no_film_status(run, None)
+    assert ("lubricant.shear" in status.hint.settings) is named
+    assert ("lubricant.shear.law" in status.message) is named
+
+
 def test_an_open_minimum_is_reported_everywhere(result: Result, monkeypatch):
     monkeypatch.setattr("tehl.report.page.CAPTIONS", {})
     vague = replace(result, status=VAGUE)

@@ -25,6 +25,7 @@ from tehl.solver.judging.convergence import (
     GridTrace,
     TimeIsOverError,
     check_divergence,
+    converged,
     film_converged,
     must_stop,
     recedes,
@@ -174,10 +175,14 @@ class GridIteration:
         negligible = max(self._negligible(), spare)
         trace.criteria = replace(trace.criteria, negligible=negligible)
         done = self.balance.is_kept and must_stop(trace, coarser, self.options)
-        if not done and self.strategy.gives_up and recedes(trace):
-            return True
+        fails = stalled(trace, self.strategy.patience)
+        fails = fails or (self.strategy.gives_up and recedes(trace))
+        if fails and not done and self.balance.is_kept:
+            doubtful = trace.doubted()
+            if converged(doubtful, coarser, self.options):  # the film rests, single nodes do not
+                self.traces[-1] = doubtful
         done = done and not self.awaits_oil()
-        return done or stalled(trace, self.strategy.patience)
+        return done or fails
 
     def awaits_oil(self) -> bool:
         """Return whether the error to reach is exceeded by that of the oil balance alone."""

@@ -23,6 +23,7 @@ from tehl.solver.judging.balance import LARGEST_MISSING_OIL
 from tehl.solver.judging.convergence import LARGEST_LOAD_ERROR
 from tehl.solver.judging.diagnosis import (
     LESS_ROUGH,
+    cause_by_the_oil,
     diverged,
     error_setting,
     grid_hint,
@@ -240,13 +241,15 @@ def _no_film_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
         status = too_coarse((nx, ny), run.hierarchy.scaled, errors.discretisation_minimum)
         return replace(status, message=f"{status.message} {no_film(run.finest)}.")
     thin = int(np.count_nonzero(run.finest.film.h <= floor))
-    return _failed(
-        "asperity_contact",
+    message = (
         f"{no_film(run.finest)}, on {grid_size((nx, ny))} of which {thin} are below "
         f"H = {floor:.2g}. Asperities would touch there, which a film that carries the whole "
-        "load does not describe.",
-        LESS_ROUGH,
+        "load does not describe."
     )
+    oil = cause_by_the_oil(run.hierarchy.scaled)
+    if oil is None:
+        return _failed("asperity_contact", message, LESS_ROUGH)
+    return _failed("asperity_contact", f"{message} Likely cause: {oil.message}", oil.hint)
 
 
 def no_film(level: Level) -> str:
