@@ -1,6 +1,7 @@
 """Lists as spreadsheets save them."""
 
 import pytest
+from openpyxl import Workbook
 
 from tehl.base.errors import InputError
 from tehl.base.lists import lines_of
@@ -14,6 +15,42 @@ def test_a_list_of_any_spreadsheet_is_read(tmp_path, encoding):
     path = tmp_path / "list.csv"
     path.write_bytes(TEXT.encode(encoding))
     assert lines_of(path) == [(1, ["u_m [m/s]", "T [°C]"]), (2, ["0.5", "40"])]
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("sep=;\nload [N];mark\n1.111,5;1.5\n0,5;b\n", ["1111.5", "0.5"]),
+        ("load [N];mark\n1.111;a\n0.5;b\n", ["1.111", "0.5"]),
+        ("load [N];mark\n1.111.000;a\n0,5;b\n", None),
+    ],
+)
+def test_thousands_of_excel_are_read_or_refused_and_never_taken_for_fractions(
+    tmp_path, text, values
+):
+    path = tmp_path / "list.csv"
+    path.write_text(text)
+    if values is None:
+        with pytest.raises(
+            InputError, match=r"line 2: 1\.111\.000 has a point, .* write 1111000 or"
+        ):
+            lines_of(path)
+    else:
+        first = 2 if text.startswith("sep") else 1
+        assert [line[0] for _, line in lines_of(path)] == ["load [N]", *values]
+        assert lines_of(path)[0][0] == first
+
+
+def test_a_folder_and_formulas_without_values_are_refused(tmp_path):
+    with pytest.raises(InputError, match=r"cannot be read \(Is a directory\)"):
+        lines_of(tmp_path)
+    book, path = Workbook(), tmp_path / "list.xlsx"
+    book.active.append(["load", "title"])
+    book.active.append([80, None])
+    book.active.append(["=2*80", "b"])
+    book.save(path)  # as programs do that do not calculate: Excel stores the value as well
+    with pytest.raises(InputError, match=r"list\.xlsx: cell A3 has a formula without its value"):
+        lines_of(path)
 
 
 def test_what_is_not_a_text_is_refused(tmp_path):

@@ -181,7 +181,7 @@ MISTAKES = [
     (f"contact.load=80 {'(' * 5000}", "contact.load", "unreadable unit"),
     (f"contact.load={'[' * 100}{']' * 100}", "contact.load = [[[", '"80 N"'),
     (f"contact.load={'[' * 5000}", "nested too deeply", ""),
-    ("contact.load=80,5 N", "comma", "write a point"),
+    ("contact.load=80,5 N", "comma", "write a decimal point"),
     ("contact.load=80\udcff N", "not UTF-8 text", ""),
     ("axes=1", "", "is a study, not a case: solve it with tehl study"),
     ("points=33", "points is not a known key", "did you mean numerics.points?"),

@@ -165,7 +165,10 @@ def test_wrong_headings_are_one_sentence(tmp_path, template):
         ("max_time [fortnight]\n1\n", 'is not known: fortnight; expected a time such as "10 min"'),
         ("radius_1 [foot]\n1\n", 'is not known: foot; expected a radius such as "20 mm"'),
         ("load [N]\n", "has no contacts"),
-        ("remark\nnew\n", "has no column that a case file knows"),
+        (
+            "remark\nnew\n",
+            'such as load [N]: its first row must have the headings, and is "remark"',
+        ),
         ("strange\n5\n", "has no column that a case file knows"),
         ("load,strange\n5,6\n", 'the column "strange" is not known'),
     ):
@@ -241,6 +244,7 @@ def test_excel_comes_back_as_an_engineer_would_format_it(tmp_path, template):
     assert page.auto_filter.ref.startswith("A2:")
     heads = [cell.value for cell in page[1]]
     units = dict(zip(heads, (cell.value for cell in page[2]), strict=True))
+    assert units["load"] == "N"
     assert units["central film"] == units["± central film"] == "nm"
     assert heads.index("± central film") == heads.index("central film") + 1
     assert units["Hertz pressure"] == "GPa"

@@ -6,7 +6,7 @@ import tomllib
 from codecs import BOM_UTF8
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from io import StringIO
 from pathlib import Path
@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 
 _DECIMAL_COMMA = re.compile(r"^([+-]?\d+),(\d+)(?=[eE\s]|$)")
 _DECIMAL_POINT = re.compile(r"^([+-]?\d+)\.(\d+)(?=[eE\s]|$)")
+_THOUSANDS = re.compile(r"^([+-]?\d{1,3}(?:\.\d{3})+)(?=,\d|$)")
+"""Thousands parted by points, which Excel writes beside decimal commas."""
+_STATED_DELIMITER = re.compile(r'"?sep=(.)"?\s*', re.IGNORECASE)
+"""A first line of Excel that states what parts the cells."""
 _UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
 LARGEST_LIST = 50_000_000
 """Bytes of a list."""
@@ -65,12 +69,18 @@ def spelling_of(path: Path) -> Spelling:
     if path.suffix.lower() in _READERS:
         return Spelling()
     content = path.read_bytes()
-    first, *others = decoded(content).splitlines() or [""]
-    delimiter = _delimiter(first)
-    numbers = (cell.strip() for line in others for cell in line.split(delimiter))
-    has_comma = delimiter != "," and any(map(_DECIMAL_COMMA.match, numbers))
     encoding = "utf-8-sig" if content.startswith(BOM_UTF8) else "utf-8"
-    return Spelling(delimiter, "," if has_comma else ".", encoding)
+    return replace(_spelling(decoded(content)), encoding=encoding)
+
+
+def _spelling(text: str) -> Spelling:
+    lines = text.splitlines() or [""]
+    delimiter = _delimiter(lines[0])
+    numbers = (cell.strip() for line in lines for cell in line.split(delimiter))
+    has_comma = delimiter != "," and any(
+        _DECIMAL_COMMA.match(_THOUSANDS.sub(_joined, cell)) for cell in numbers
+    )
+    return Spelling(delimiter, "," if has_comma else ".")
 
 
 def values_of_file(path: Path, column: str) -> list[Any]:
@@ -131,45 +141,74 @@ def lines_of(path: Path, what: str = "list of cases") -> list[tuple[int, list[An
     kind, read = _READERS.get(ending, (f"a {what}", _csv))
     try:
         if path.stat().st_size > LARGEST_LIST:
-            raise InputError(f"{shown} is larger than {LARGEST_LIST // 10**6} MB, so not a {what}")
-        found = ((number, [stripped(cell) for cell in line]) for number, line in read(path))
-        lines = [(number, line) for number, line in found if any(cell is not None for cell in line)]
+            raise InputError(f"larger than {LARGEST_LIST // 10**6} MB, so not a {what}")
+        return _filled(read(path))
     except FileNotFoundError:
         raise InputError(f"{what} {shown} does not exist") from None
-    except InputError:
-        raise
+    except InputError as error:
+        raise InputError(f"{shown}: {error}") from None
+    except OSError as error:
+        raise InputError(f"{shown}: cannot be read ({error.strerror or error})") from None
     except Exception as error:  # openpyxl and pyarrow have no common base of their errors
         raise InputError(f"{shown} cannot be read as {kind}: {error}") from None
-    widths = [len(line) for _, line in lines]
-    uneven = next((n for n, width in enumerate(widths) if width != widths[0]), None)
-    if uneven is not None:
-        raise InputError(
-            f"{shown}: line {lines[uneven][0]} has {widths[uneven]} cells, but the first has "
-            f"{widths[0]}"
-        )
+
+
+def _filled(rows: Iterable[tuple[int, list[Any]]]) -> list[tuple[int, list[Any]]]:
+    """Return the rows that are not empty, all as long as the first one."""
+    stripped_rows = ((number, [stripped(cell) for cell in line]) for number, line in rows)
+    lines = [(n, line) for n, line in stripped_rows if any(cell is not None for cell in line)]
+    for number, line in lines:
+        if (width := len(lines[0][1])) != len(line):
+            raise InputError(f"line {number} has {len(line)} cells, but the first has {width}")
     return lines
 
 
 def _csv(path: Path) -> Iterator[tuple[int, list[str]]]:
-    file = StringIO(decoded(path.read_bytes()), newline="")
-    reader = csv.reader(file, delimiter=_delimiter(file.readline()))
-    file.seek(0)
+    text = decoded(path.read_bytes())
+    spelling = _spelling(text)
+    file = StringIO(text, newline="")
+    skipped = _STATED_DELIMITER.fullmatch(file.readline()) is not None
+    if not skipped:
+        file.seek(0)
+    reader = csv.reader(file, delimiter=spelling.delimiter)
     for line in reader:
+        number = reader.line_num + skipped
         cells = [cell.strip() for cell in line]
-        by_commas = reader.dialect.delimiter == ","
-        yield reader.line_num, cells if by_commas else [_pointed(cell) for cell in cells]
+        if spelling.decimal == ",":
+            for cell in cells:
+                if (found := _THOUSANDS.fullmatch(cell)) is not None:
+                    plain = _joined(found)
+                    raise InputError(
+                        f"line {number}: {cell} has a point, but this list has decimal commas: "
+                        f"write {plain} or {cell.replace('.', ',', 1)}"
+                    )
+            cells = [_pointed(cell) for cell in cells]
+        yield number, cells
 
 
-def _sheet(path: Path) -> Iterator[tuple[int, list[Any]]]:
-    """Yield the rows of the first Excel sheet; as wide as there are headings."""
+def _sheet(path: Path) -> list[tuple[int, list[Any]]]:
+    """Return the rows of the first Excel sheet; as wide as there are headings."""
     from openpyxl import load_workbook  # noqa: PLC0415 (an extra)
 
+    width, lines = 0, []
     with closing(load_workbook(path, read_only=True, data_only=True)) as book:
-        width = 0
-        for number, line in enumerate(book.worksheets[0].iter_rows(values_only=True), 1):
+        for line in book.worksheets[0].iter_rows(values_only=True):
             if not width:
                 width = max((k + 1 for k, cell in enumerate(line) if stripped(cell)), default=0)
-            yield number, [*line, *[None] * width][:width]
+            lines.append([*line, *[None] * width][:width])
+    if not any(cell is None for line in lines for cell in line):
+        return list(enumerate(lines, 1))
+    # an empty cell would be that of the template: a formula without its value must not look empty
+    with closing(load_workbook(path, read_only=True)) as book:
+        for row in book.worksheets[0].iter_rows(max_col=width):
+            for cell in row:
+                formula = isinstance(cell.value, str) and cell.value.startswith("=")
+                if formula and lines[cell.row - 1][cell.column - 1] is None:
+                    raise InputError(
+                        f"cell {cell.coordinate} has a formula without its value: open the file "
+                        "in a spreadsheet program and save it"
+                    )
+    return list(enumerate(lines, 1))
 
 
 def _parquet(path: Path) -> list[tuple[int, list[Any]]]:
@@ -245,13 +284,20 @@ def check_package(package: str, extra: str, path: Path) -> None:
 
 
 def _delimiter(first: str) -> str:
-    """Return what separates the cells of a list: semicolon, tab or comma."""
+    """Return what separates the cells of a list: semicolon, tab or comma, or what it states."""
+    if (stated := _STATED_DELIMITER.fullmatch(first)) is not None:
+        return stated[1]
     return next((mark for mark in ";\t" if mark in first), ",")
 
 
 def _pointed(cell: str) -> str:
     """Return a cell with a decimal point in place of a decimal comma."""
-    return _DECIMAL_COMMA.sub(r"\1.\2", cell)
+    return _DECIMAL_COMMA.sub(r"\1.\2", _THOUSANDS.sub(_joined, cell))
+
+
+def _joined(match: re.Match[str]) -> str:
+    """Return a number without points between its thousands."""
+    return match[1].replace(".", "")
 
 
 def _with_comma(cell: Any) -> Any:

@@ -36,6 +36,10 @@ _PREFIXED: dict[str, tuple[float, Dimension]] = {
     "W": (1.0, _POWER),
     "Hz": (1.0, (0, 0, -1, 0)),
     "Pas": (1.0, (-1, 1, -1, 0)),
+    "Ns": (1.0, (1, 1, -1, 0)),
+    "Nm": (1.0, _ENERGY),
+    "l": (1e-3, (3, 0, 0, 0)),
+    "L": (1e-3, (3, 0, 0, 0)),
 }
 _UNITS: dict[str, tuple[float, Dimension]] = {
     prefix + name: (scale * factor, dimension)
@@ -49,10 +53,14 @@ _UNITS: dict[str, tuple[float, Dimension]] = {
     "mrad": (1e-3, _NONE),
     "deg": (math.pi / 180.0, _NONE),
     "°": (math.pi / 180.0, _NONE),
+    "arcmin": (math.pi / 10800.0, _NONE),
     "K": (1.0, (0, 0, 0, 1)),
     "degC": (1.0, (0, 0, 0, 1)),
     "°C": (1.0, (0, 0, 0, 1)),
     "cm": (1e-2, (1, 0, 0, 0)),
+    "dm": (1e-1, (1, 0, 0, 0)),
+    "mK": (1.0, (1, 0, 0, 1)),  # W/mK of data sheets is W/(m K)
+    "kgK": (1.0, (0, 1, 0, 1)),
     "min": (60.0, (0, 0, 1, 0)),
     "h": (3600.0, (0, 0, 1, 0)),
     "bar": (1e5, _PRESSURE),
@@ -61,13 +69,13 @@ _UNITS: dict[str, tuple[float, Dimension]] = {
     "cSt": (1e-6, (2, 0, -1, 0)),
     "St": (1e-4, (2, 0, -1, 0)),
 }
-_CELSIUS = ("degC", "°C", "C")
+_CELSIUS = ("degC", "°C", "C", "deg C")
 _ZERO_CELSIUS = 273.15
-_ANGLE_UNITS = ("rad", "mrad", "deg", "°")
+_ANGLE_UNITS = ("rad", "mrad", "deg", "°", "arcmin")
 
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
-_TURNING = re.compile(r"(?:rpm|RPM|r/min|rev/min|U/min|1/min|min\^?-1|min⁻¹)(?![\w/^*])")
+_TURNING = re.compile(r"(?:rpm|RPM|r/min|rev/min|U/min|1?/min|min\^?-1|min⁻¹)(?![\w/^*])")
 _FLAT = "|[+]?inf"
 """What the schema of a radius allows beside numbers."""
 _GROUP = re.compile(r"\(([^()]*)\)")
@@ -76,6 +84,20 @@ _FACTOR = re.compile(
     r"(?:\s*(?:\^|\*\*)\s*([+-]?\d*)|(?<=[A-Za-z])([+-]?\d))?"  # m^3, or m3 as data sheets have
 )
 _SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "⁻": "-", "¹": "1"})
+_LOOKALIKES = str.maketrans({"−": "-", "℃": "°C", "º": "°", "∞": "inf"})
+"""Signs that texts and spreadsheets have in place of those on keyboards."""
+_WRONG_NUMBERS = (
+    (r",\d", "a comma in its number: write a decimal point, and no mark between thousands"),
+    (r"\d{3}\b", "a space in its number, leave it out"),
+    (r"['’]\d{3}\b", "a mark between its thousands, leave it out"),
+    (r"\s*[x×·*]\s*10\s*(\^|\*\*|[-+⁻⁺])", "a power of ten apart from its number: write 2.2e-8"),
+)
+"""What may stand in place of a unit where a number is spelled wrongly, and what is wrong."""
+
+
+def plain_signs(text: str) -> str:
+    """Return a text with the signs of keyboards in place of those that look alike."""
+    return re.sub(r"°\s+C\b", "°C", text.translate(_LOOKALIKES))
 
 
 def is_per_turn(text: str) -> bool:
@@ -171,7 +193,7 @@ class Quantity:
         begins with the name and the value: ``contact.load = "80 mm" ...``.
         """
         if isinstance(value, str):
-            return self._check(self._read(value.strip()))
+            return self._check(self._read(plain_signs(value).strip()))
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise ValueError(f"is not a number; {self.expected}")
         if abs(value) > 1e300:  # so that huge integers of a case file do not overflow
@@ -199,8 +221,9 @@ class Quantity:
         return f"expected {self.name} such as {self.example}"
 
     def _read(self, text: str) -> float:
-        if text.lstrip("+-").lower() in ("inf", "nan"):
-            return float(text)
+        first, _, unit = text.partition(" ")
+        if first.lstrip("+-").lower() in ("inf", "nan") and (not unit or self.has_unit(unit)):
+            return float(first)
         match = _NUMBER.match(text)
         if match is None:
             raise ValueError(f"does not begin with a number; {self.expected}")
@@ -232,16 +255,7 @@ class Quantity:
 
     def _factor(self, unit: str) -> float:
         """Return the factor from ``unit`` to SI."""
-        if len(unit) > 40:  # characters of a unit
-            raise ValueError(f"has an unreadable unit; {self.expected}")
-        if apart := re.match(r"(,)\d|\d{3}\b", unit):  # 80,5 N or 1 200 N
-            found = "a comma in its number, write a point"
-            found = found if apart[1] else "a space in its number, leave it out"
-            raise ValueError(f"has {found}; {self.expected}")
-        try:
-            factor, dimension = _read_unit(unit)
-        except ValueError as error:
-            raise ValueError(f"{error}; {self.expected}") from None
+        factor, dimension = self._unit(unit)
         if self.unit == "-" and unit in _ANGLE_UNITS:
             raise ValueError(f"has the unit of an angle ({unit}); {self.expected}")
         turns = any(one in unit for one in _ANGLE_UNITS)
@@ -254,6 +268,25 @@ class Quantity:
             hint = "" if way is None else f" ({way})"
             raise ValueError(f"has the unit of {_kind(dimension, unit)}; {self.expected}{hint}")
         return factor
+
+    def _unit(self, unit: str) -> tuple[float, Dimension]:
+        """Return factor to SI and dimension of ``unit``, of this kind where it can be read so."""
+        if len(unit) > 40:  # characters of a unit
+            raise ValueError(f"has an unreadable unit; {self.expected}")
+        if wrong := next((why for what, why in _WRONG_NUMBERS if re.match(what, unit)), None):
+            raise ValueError(f"has {wrong}; {self.expected}")
+        above, _, below = unit.partition("/")
+        try:
+            found = _read_unit(unit)
+            if found[1] != self.dimension and below and "/" not in below:
+                joined = _read_unit(f"{above}/({below})")  # data sheets have J/kg K
+                found = joined if joined[1] == self.dimension else found
+        except ValueError as error:
+            alike = [one for one in _UNITS if one.lower() == unit.lower()]
+            near = " or ".join(one for one in alike if _UNITS[one][1] == self.dimension)
+            guess = f", did you mean {near}?" if near else ""
+            raise ValueError(f"{error}{guess}; {self.expected}") from None
+        return found
 
     def _check(self, number: float) -> float:
         if math.isnan(number):

@@ -165,9 +165,9 @@ def columns_and_rows(
     columns = [column_of("" if cell is None else str(cell), others) for cell in lines[0][1]]
     body = lines[1:]
     if are_units(body[0][1]):
-        units = [unit_of("" if cell is None else str(cell)) for cell in body[0][1]]
+        units = ["" if cell is None else str(cell) for cell in body[0][1]]
         columns = [
-            Column(one.heading, one.key, unit or one.unit)
+            Column(_with_unit(one, unit), one.key, unit_of(unit) or one.unit)
             for one, unit in zip(columns, units, strict=True)
         ]
         body = body[1:]
@@ -176,6 +176,12 @@ def columns_and_rows(
     if not body:
         raise InputError("has no contacts below its units")
     return columns, body
+
+
+def _with_unit(column: Column, unit: str) -> str:
+    """Return the heading with a unit that stands below it: answers have it in one row."""
+    stated = not column.heading or column.unit or not unit
+    return column.heading if stated else f"{column.heading} [{unit.strip('[]() ')}]"
 
 
 def contacts_of(frame: "pd.DataFrame", base: dict[str, Any], folder: Path | None) -> Contacts:

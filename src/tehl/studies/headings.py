@@ -10,7 +10,8 @@ from typing import Any
 from tehl.api.problem import ContactProblem
 from tehl.base.errors import InputError
 from tehl.base.keys import field_at, key_paths, models_at, quantity_of
-from tehl.base.units import ForcePerLength, is_per_turn, is_unit, quantity
+from tehl.base.units import ForcePerLength, is_per_turn, is_unit, plain_signs, quantity
+from tehl.base.wording import short
 from tehl.contact.options import Options
 from tehl.io.case import plain_value
 
@@ -32,7 +33,8 @@ _WORDS = (
         "contact.radius": "radius r reduced_radius",
         "contact.radius_x": "r_x rx radius_x reduced_radius_x",
         "contact.radius_y": "r_y ry radius_y reduced_radius_y",
-        "lubricant.temperature": "temperature oil_temperature inlet_temperature lube_temp t_oil t",
+        "lubricant.temperature": "temperature oil_temperature inlet_temperature temp oil_temp "
+        "lube_temp t_oil t",
         "lubricant.oil": "oil lubricant",
         "lubricant.viscosity.nu_40": "nu_40 nu40 kv40 kv_40 viscosity_40",
         "lubricant.viscosity.nu_100": "nu_100 nu100 kv100 kv_100 viscosity_100",
@@ -64,7 +66,7 @@ NO_WORDS: Mapping[str, str] = {}
 _KEYS = {word: key for key, words in _WORDS.items() for word in words.split()}
 """Keys of the case by words of headings."""
 _SIGNS = str.maketrans({"µ": "u", "μ": "u", "²": "^2", "³": "^3", "·": " ", "⋅": " ", "−": "-"})
-_DEGREES = {"°C": "degC", "C": "degC", "°": "deg", "° C": "degC"}
+_DEGREES = {"C": "degC", "°": "deg"}
 _HEADING = re.compile(
     r"(?P<name>.+?)\s*(?:\[(?P<a>.*)\]|\((?P<b>.*)\)|\s+in\s+(?P<c>\S.*)|\s*/\s*(?P<d>\S.*))\s*"
 )
@@ -120,7 +122,8 @@ def by_unit(column: Column) -> Column:
 def unit_of(text: str) -> str:
     """Return a unit as case files spell it."""
     plain = text.strip().strip("[]()").strip()
-    return _DEGREES.get(plain, plain.translate(_SIGNS).replace("°C", "degC"))
+    plain = plain_signs(plain).replace("°C", "degC")
+    return _DEGREES.get(plain, plain.translate(_SIGNS))
 
 
 def are_units(cells: Sequence[Any]) -> bool:
@@ -157,7 +160,11 @@ def check_columns(columns: Sequence[Column], lines: Sequence[Sequence[Any]]) -> 
         if one.key is not None and keys.count(one.key) > 1:
             raise InputError(f"two columns state {one.key}: remove one of them")
     if not keys:
-        raise InputError("has no column that a case file knows, such as load [N]")
+        found = ", ".join(f'"{one.heading}"' for one in columns if one.heading)
+        raise InputError(
+            "has no column that a case file knows, such as load [N]: its first row must have the "
+            f"headings, and is {short(found, 80)}"
+        )
     for place, one in enumerate(columns):
         if one.key is not None or not one.heading:
             continue
