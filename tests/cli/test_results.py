@@ -131,6 +131,14 @@ def test_a_file_that_is_not_a_result_is_bad_input(stored, run, command, damage):
     assert len(list(stored.parent.iterdir())) == (damage in content)
 
 
+@pytest.mark.parametrize("command", ["plot", "animate", "export", "report"])
+def test_a_missing_name_of_a_result_is_the_current_folder(tmp_path, run, monkeypatch, command):
+    monkeypatch.chdir(tmp_path)
+    done = run(command, "")  # of an empty variable of the shell
+    assert done.code == 2
+    assert "is a folder; expected a result file such as film.nc" in done.err
+
+
 @pytest.mark.parametrize(
     ("words", "names"),
     [

@@ -27,6 +27,7 @@ WRONG = {
         'contact.load = "20.0 mm": has the unit of a length',
     ),
     "two units": (STUDY.replace("80 N", "80 kN"), "has the units N and kN"),
+    "a comma": (STUDY.replace("80 N", "80,5 N"), '"80,5 N" with a comma: write a decimal point'),
     "empty": (STUDY.replace("[0.0, 0.5]", "[]"), "(contact.slide_roll_ratio) has an empty list"),
     "no values": (STUDY.replace("values = [0.0, 0.5]", ""), "has no values: give one of values"),
     "two ways": (STUDY + "linspace = [0, 1, 3]", "states values and linspace"),

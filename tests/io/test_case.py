@@ -193,6 +193,8 @@ MISTAKES = [
     ("a." * 2000 + "b=3", "2001 parts; expected at most 8", ""),
     ("contact.load=1\nx=2", "contact.load", '"80 N"'),
     ("surface_1.material=5", "surface_1.material = 5: must be the name", "or a table with young"),
+    ("surface_1.material={E=1}", "surface_1.material.E is not", "did you mean young_modulus?"),
+    ("lubricant=5W-30", "is not a known oil", "such as that of tehl new data-sheet"),
     ("surface_1.material=[]", "surface_1.material = []: must be the name", "steel"),
     ("surface_1.material={young_modulus=2e11}", "poisson_ratio is missing", "such as 0.3"),
     ("lubricant=true", "lubricant = true: must be the name", "mineral-oil"),

@@ -15,8 +15,10 @@ from tehl.io.templates import template_text
     [
         ("[contact\nload = 3", 1, "[contact"),
         ('a = 1\nload = "80 N', 2, "80 N"),
-        ("a = 1\n\nload = 80 N", 3, "load = 80 N"),
-        ("a = 1\na = 2\n", 2, "a = 2"),
+        ("a = 1\n\nload = 80 N # kN", 3, 'with units in quotes, load = "80 N"'),
+        ("load = 80,5", 1, "write a decimal point in place of the comma"),
+        ("load = “80 N”", 1, 'write straight quotes "'),
+        ("a = 1\na = 2\n", 2, "'a = 2' is not valid TOML: Cannot overwrite a value"),
         ("x = '''abc", 1, "abc"),
     ],
 )
@@ -35,7 +37,7 @@ def test_a_file_that_cannot_be_read_is_reported(tmp_path: Path):
     with pytest.raises(InputError, match="cannot be read"):
         read_case(tmp_path)
     (tmp_path / "binary.toml").write_bytes(b"\x89HDF\r\n\xff\xfe")
-    with pytest.raises(InputError, match="UTF-8"):
+    with pytest.raises(InputError, match="UTF-16; if it is a case file, save it as UTF-8"):
         read_case(tmp_path / "binary.toml")
 
 

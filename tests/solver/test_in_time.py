@@ -349,7 +349,7 @@ MISTAKES = [
     ({"radius": 3}, "pairs of a time and a value"),
     ({"radius": "missing.csv"}, "cannot be read"),
     ({"slide_roll_ratio": [[0, 1]], "sliding_speed": [[0, 1]]}, "state the same"),
-    ({"entrainment_speed": [[0, 0], [1e-5, 1]]}, "first speed must be positive"),
+    ({"entrainment_speed": [[0, 0], [1e-5, 1]]}, "first speed must be positive, such as"),
     ({"load": "0.5 - t/(1 ms)", "duration": "1 ms"}, "transient.load = .* must be positive"),
 ]
 

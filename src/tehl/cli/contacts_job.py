@@ -70,6 +70,6 @@ def run(  # noqa: PLR0913 (the arguments of the command)
         wrong = [row.message for row in found.wrong]
         typer.echo(as_json_of(outcome, rows=len(found.rows), wrong=wrong, table=str(output)))
     else:
-        wrong_rows = f"{len(found.wrong)} of {len(found.rows)} rows are wrong, see the table"
+        wrong_rows = f"wrong rows, see the table: {len(found.wrong)} of {len(found.rows)}"
         show_outcome(outcome, [str(output)], "contacts", wrong_rows if found.wrong else "")
     return not (found.wrong or outcome.failed)

@@ -92,9 +92,16 @@ def plot(  # noqa: PLR0913 (the options of the command)
             echo(path)
 
 
+def _beside(stored: Path, ending: str) -> Path:
+    """Return the path of an output beside the result."""
+    if not stored.name:  # "." or the root
+        raise InputError(f"{stored} is a folder; expected a result file such as film.nc")
+    return stored.with_name(f"{stored.stem}{ending}")
+
+
 def _destination(stored: Path, output: Path | None) -> tuple[Path | None, Path]:
     """Return file, if the output is one, and folder of the pictures, both checked."""
-    folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
+    folder = _beside(stored, "_plots") if output is None else output
     if output is not None and output.suffix[1:].lower() in tuple(Image) and not output.is_dir():
         check_writable(output, sources=(stored,))
         return output, output.parent
@@ -135,7 +142,7 @@ def animate(
 
     It shows the frames of the result (transient.frames of its case).
     """
-    target = stored.with_suffix(".gif") if output is None else output
+    target = _beside(stored, ".gif") if output is None else output
     animation.check_format(target)
     check_writable(target, sources=(stored,))
     run = results.load_as(results.TransientResult, stored)
@@ -166,7 +173,7 @@ def export(
     with its temperatures; of a transient result .pvd gives all frames, one .vtr file each.
     """
     result = results.load(stored)
-    path = stored.with_suffix(exports.ending_of(result, to)) if output is None else output
+    path = _beside(stored, exports.ending_of(result, to)) if output is None else output
     check_writable(path, sources=(stored,))
     for written in exports.export(result, path, to, what or ""):
         echo(written)
@@ -182,7 +189,7 @@ def report(
 
     It has numbers, pictures, formulas, inputs, groups, errors and convergence.
     """
-    path = stored.with_suffix(".html") if output is None else output
+    path = _beside(stored, ".html") if output is None else output
     check_writable(path, sources=(stored,))
     if path.suffix.lower() not in (".html", ".htm"):
         raise InputError(f"output {path}: a report ends in .html; print it as PDF in a browser")

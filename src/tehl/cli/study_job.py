@@ -325,7 +325,9 @@ def show_outcome(outcome: Outcome, written: Iterable[str], what: str, remark: st
     )
     uncertain, more = outcome.uncertain, len(outcome.failed) - MOST_NAMED_CASES
     lines = [
-        f"{outcome.equal} further rows equal others, and are solved once" if outcome.equal else "",
+        f"rows that equal others and are solved with them: {outcome.equal}"
+        if outcome.equal
+        else "",
         f"{uncertain} of them with an uncertain minimum film or pressure: see the table"
         if uncertain
         else "",

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator, Field, ValidationInfo
 
@@ -20,6 +20,14 @@ from tehl.base.units import (
 
 class Solid(Table):
     """An elastic solid."""
+
+    synonyms: ClassVar = {
+        "young_modulus": "e youngs_modulus elastic_modulus e_modulus modulus",
+        "poisson_ratio": "nu poisson poissons_ratio",
+        "density": "rho",
+        "heat_capacity": "c cp c_p specific_heat",
+        "conductivity": "k thermal_conductivity",
+    }
 
     young_modulus: Pressure
     """E [Pa]."""

@@ -92,7 +92,7 @@ class Discretisation(Table):
     error: Annotated[Share, Field(ge=LEAST_ERROR, le=LARGEST_ERROR)] | None = None
     """Relative error of the central and of the minimum film to reach, such as ``"0.5 %"``;
     left out, it is 1 %, 2 % where the film is not extrapolated; in smooth line
-    contacts 0.2 %, with heat or thinning 0.5 %.
+    contacts 0.2 %, with heat or thinning 0.5 %; of rollers 5 %.
     Full multigrid goes on to finer grids until its estimate is below. Between rough surfaces the
     error of the minimum is relative to the central film of the smooth contact."""
     points: Nodes | tuple[Nodes, Nodes | Literal[1]] | Literal["auto"] = "auto"

@@ -108,9 +108,10 @@ def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
             _check(key, course.at(time), time)
     moments = tuple(map(at, times))
     if not moments[0].speed > 0.0:
+        slow = 0.1 * scaled.scales.speed
         raise InputError(
             f"transient.entrainment_speed = {moments[0].speed:g} at 0 s: a run starts from a "
-            "steady film, so its first speed must be positive"
+            f'steady film, so its first speed must be positive, such as "{slow:.2g} m/s"'
         )
     if problem.thermal is not None and not min(moments[0].speeds) > 0.0:
         raise InputError(

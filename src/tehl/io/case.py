@@ -151,7 +151,9 @@ def text_of(content: bytes) -> str:
     try:
         return content.decode(encoding_of(content))
     except UnicodeDecodeError:
-        raise InputError("not a text file in UTF-8 or UTF-16, so not a case file") from None
+        raise InputError(
+            "not a text file in UTF-8 or UTF-16; if it is a case file, save it as UTF-8"
+        ) from None
 
 
 def _syntax(message: str, text: str) -> str:
@@ -160,8 +162,21 @@ def _syntax(message: str, text: str) -> str:
     lines = text.split("\n")
     number = int(place[1]) if place and place[1] else len(text.rstrip("\n").split("\n"))
     reason = message[: place.start()] if place else message
-    line = short(repr(lines[number - 1].strip()), 60)
-    return f"line {number}: {line} is not valid TOML: {short(reason, 100)}"
+    line = lines[number - 1].strip()
+    remedy = _remedy(line) or short(reason, 100)
+    return f"line {number}: {short(repr(line), 60)} is not valid TOML: {remedy}"
+
+
+def _remedy(line: str) -> str:
+    """Return how to write a line with one of the usual mistakes; empty if it has none of them."""
+    key, _, value = (part.strip() for part in line.partition("#")[0].partition("="))
+    if re.search("[“”„‘’«»]", value):
+        return 'write straight quotes "'
+    if re.fullmatch(r"[+-]?\d+,\d+", value):
+        return "write a decimal point in place of the comma"
+    if re.fullmatch(r"[\w.+-][^=\"'\[{]*", value) and plain_value(value) == value:
+        return f'write texts and numbers with units in quotes, {key} = "{value}"'
+    return ""
 
 
 def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:

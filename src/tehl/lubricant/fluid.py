@@ -166,7 +166,11 @@ def _grown(stated: Property, name: str, pressure: Array) -> Array:
 
 
 OILS = Library(
-    Path(__file__).with_name("oils.toml"), "oil", "oil", "viscosity and density", Lubricant
+    Path(__file__).with_name("oils.toml"),
+    "oil",
+    "oil",
+    "viscosity and density, such as that of tehl new data-sheet",
+    Lubricant,
 )
 OilName = Annotated[str, OILS]
 _LAWS = {"viscosity", "density"}

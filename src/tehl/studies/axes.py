@@ -159,6 +159,8 @@ def _split(end: End) -> tuple[float, str]:
     match = _NUMBER.fullmatch(str(end))
     if not match:
         raise ValueError(f'has an end "{str(end)[:40]}" that does not begin with a number')
+    if re.match(r",\d", match[2]):
+        raise ValueError(f'has an end "{str(end)[:40]}" with a comma: write a decimal point')
     if not math.isfinite(float(match[1])):
         raise ValueError("must have finite ends")
     return float(match[1]), match[2]
