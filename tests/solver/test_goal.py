@@ -381,13 +381,26 @@ def test_another_grid_fits_beside_the_one_that_is_kept() -> None:
         assert Goal(scaled, limited).other_nodes(level, errors(0.012, 0.012)) == nodes
 
 
-def test_few_other_grids_are_tried() -> None:
+def test_few_other_grids_are_tried_each_finer_than_the_one_before() -> None:
+    """A heated ellipse (M = 431) went from 97 to 129, back to 97 and to 129 nodes again."""
+    scaled = ScaledProblem.of(moes_contact(400.0, 10.0))
+    options = settled(scaled.problem, Options())
+    goal, found = Goal(scaled, options), []
+    for nodes in (129, 129, 161, 193, 225):
+        level = with_minimum_at(0.1, finest_grid(scaled, options.on_points(nodes, nodes)))
+        found.append(goal.other_nodes(level, errors(0.006, 0.011)))
+    assert found == [(161, 161), None, (193, 193), (225, 225), None]
+    assert MOST_OTHERS == 3
+
+
+def test_another_grid_has_the_time_that_its_nodes_take(monkeypatch) -> None:
     scaled = ScaledProblem.of(moes_contact(400.0, 10.0))
     options = settled(scaled.problem, Options())
     level = with_minimum_at(0.1, finest_grid(scaled, options.on_points(129, 129)))
-    goal = Goal(scaled, options)
-    found = [goal.other_nodes(level, errors(0.006, 0.011)) for _ in range(MOST_OTHERS + 1)]
-    assert found == [(161, 161)] * MOST_OTHERS + [None]
+    monkeypatch.setattr("tehl.solver.judging.goal.working_time", lambda: 10.0)
+    for left, nodes in ((25.0, (161, 161)), (15.0, None)):
+        goal = Goal(scaled, options, until=10.0 + left, _started=0.0, _last=0.0)
+        assert goal.other_nodes(level, errors(0.006, 0.011)) == nodes
 
 
 def test_the_minimum_at_the_exit_of_a_heavy_slender_contact_has_a_least_bar() -> None:

@@ -15,6 +15,7 @@ from tehl.contact.problem import ContactProblem
 from tehl.contact.supply import Supply
 from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
+from tehl.kernels.energy.march import LARGEST_KELVIN_STEP
 from tehl.solver import attempts, steady
 from tehl.solver.attempts import Climb
 from tehl.solver.cycle.film_solver import FilmSolver
@@ -32,7 +33,7 @@ from tehl.solver.cycle.ladder import (
 )
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, FAST, THIN
-from tehl.solver.judging.convergence import DivergedError
+from tehl.solver.judging.convergence import Criteria, DivergedError
 from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.measures import film_extremes
 from tehl.solver.monitor import SILENT
@@ -166,17 +167,37 @@ def test_a_strategy_goes_on_from_the_grids_that_another_one_solved(
 
 
 @pytest.mark.parametrize(
-    ("residuals", "reached", "leads"),
-    [((2e-3, 9e-5), None, False), ((2e-4, 5e-4), None, True), ((2e-3, 9e-5), 0.09, True)],
+    ("residuals", "kelvins", "reached", "leads"),
+    [
+        ((2e-3, 9e-5), 1.0, None, False),
+        ((2e-4, 5e-4), 1.0, None, True),
+        ((2e-3, 9e-5), 1.0, 0.09, True),
+        ((2e-3, 9e-5), LARGEST_KELVIN_STEP, None, True),
+    ],
 )
 def test_a_grid_is_not_too_coarse_where_cycles_lead_away_or_a_coarser_one_has_a_film(
-    residuals: tuple[float, ...], reached: float | None, leads: bool
+    residuals: tuple[float, ...], kelvins: float, reached: float | None, leads: bool
 ) -> None:
-    """A tooth (M = 6,534): bars of 9 % on 257 nodes, and of 480 % after 7 cycles on 513."""
-    reports = [Mock(residual=one) for one in residuals]
+    """A tooth (M = 6,534): bars of 9 % on 257 nodes, and of 480 % after 7 cycles on 513.
+
+    Heat that runs away leads away too (a heated ellipse, M = 431, on 193 x 193 nodes).
+    """
+    reports = [Mock(residual=one, temperature_change=kelvins) for one in residuals]
     before = None if reached is None else ((257, 65), reached)
     run = Mock(traces=[Mock(reports=reports)], reached_before=Mock(return_value=before))
     assert FilmSolver.leads_away(run) is leads
+
+
+@pytest.mark.parametrize(("kelvins", "starts"), [(39.0, True), (LARGEST_KELVIN_STEP, False)])
+def test_no_grid_starts_from_a_film_whose_heat_runs_away(kelvins: float, starts: bool) -> None:
+    """A turned ellipse (M = 1,611) heated by 753 K on 321 lines: 641 took half of all its time."""
+    first = Mock(residual=7.8e-3)
+    last = Mock(cycle=10, residual=1.2e-3, change=0.15, load_error=6.6e-3)
+    last.temperature_change = kelvins
+    run = Mock(strategy=Mock(newton=False), options=Options())
+    trace = Mock(reports=[first, last], criteria=Criteria())
+    run.finest.grid.is_closed = False
+    assert FilmSolver._is_acceptable(run, trace) is starts
 
 
 def test_a_grid_that_diverges_before_it_is_heated_has_a_trace_of_its_own(

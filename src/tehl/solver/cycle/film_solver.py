@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
+from tehl.kernels.energy.march import LARGEST_KELVIN_STEP
 from tehl.kernels.properties import Factors
 from tehl.operators.energy import FilmState
 from tehl.operators.heights import Heights, heights_of
@@ -111,7 +112,6 @@ class FilmSolver(GridIteration):
         """
 
         def improve(levels: Sequence[Level]) -> None:
-            self.goal.begin_grid()
             if levels[-1] is self.finest:
                 if not (self.accepted or force):
                     raise DivergedError
@@ -285,10 +285,14 @@ class FilmSolver(GridIteration):
         return self.wanted is None and self.goal.may_refine(self.finest, errors)
 
     def leads_away(self) -> bool:
-        """Return whether cycles lead away from the film, or a coarser grid resolves it."""
+        """Return whether cycles lead away from the film, or a coarser grid resolves it.
+
+        So they do where heat runs away.
+        """
         reports = self.traces[-1].reports
         grows = bool(reports) and reports[-1].residual > reports[0].residual
-        return grows or self.reached_before() is not None
+        hotter = bool(reports) and reports[-1].temperature_change >= LARGEST_KELVIN_STEP
+        return grows or hotter or self.reached_before() is not None
 
     def _is_last(self, levels: Sequence[Level]) -> bool:
         """Return whether a grid is accurate enough, or no finer one may follow."""
@@ -359,7 +363,11 @@ class FilmSolver(GridIteration):
             level.set_relaxation(self.strategy.first_relaxation)
 
     def _is_acceptable(self, trace: GridTrace) -> bool:
-        """Return whether a coarser grid was converging, so that the next one may start from it."""
+        """Return whether a coarser grid was converging, so that the next one may start from it.
+
+        Not while temperatures change by the most that a sweep may change them: the first heated
+        film is so far off that the residual may halve while heat runs away.
+        """
         first, last = trace.reports[0], trace.reports[-1]
         # fewer cycles than MOST_CYCLES: it converged before
         falling = last.cycle < MOST_CYCLES or last.residual < self.options.tolerance
@@ -372,6 +380,7 @@ class FilmSolver(GridIteration):
         change = last.mean_change if single else last.change
         return (
             falling
+            and last.temperature_change < LARGEST_KELVIN_STEP
             and change < LARGEST_CYCLE_CHANGE
             and abs(last.load_error) < LARGEST_CYCLE_CHANGE
         )

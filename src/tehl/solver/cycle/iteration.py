@@ -100,6 +100,7 @@ class GridIteration:
         fine.update()
         self.traces.append(GridTrace(columns=fine.grid.nx))  # also if it diverges before the heat
         done = self._start_heat(levels)
+        self.goal.begin_cycles()  # no finer grid starts its heat from nothing
         method = method_of(self._visit(levels))
         is_slow = self.coupling.state is not None or self.hierarchy.scaled.groups.M > SECOND_LOAD
         criteria = Criteria(

@@ -81,6 +81,7 @@ class Goal:
     """What would help there, beside a larger error."""
     _tries: int = 0
     _others: int = 0
+    _most: int = 0
     _started: float = field(default_factory=working_time)
     _last: float = field(default_factory=working_time)
 
@@ -136,8 +137,8 @@ class Goal:
             plan = plan.on_points(nx, ny)
         return plan
 
-    def begin_grid(self) -> None:
-        """Note the time at which the work on a grid begins."""
+    def begin_cycles(self) -> None:
+        """Note the time at which the cycles of a grid begin."""
         self._last = working_time()
 
     def is_met(
@@ -217,7 +218,8 @@ class Goal:
     def other_nodes(self, level: Level, errors: ErrorEstimate | None) -> tuple[int, int] | None:
         """Return nodes (nx, ny) of another grid that is expected to reach the error; None if none.
 
-        It has more lines alone, or a mesh between that of the last grid and half of it.
+        It has more lines alone, or a mesh between that of the last grid and half of it, and more
+        nodes than those that were named before.
 
         Parameters
         ----------
@@ -232,7 +234,12 @@ class Goal:
         found = self._between(level, errors) if lines is None else (level.grid.nx, lines)
         if found is None or self._needed(found) > self._left(level):
             return None
-        self._others += 1
+        nodes = math.prod(found)
+        spent = working_time() - self._last
+        expected = FACTOR * spent * nodes / (4.0 * math.prod(level.grid.points))
+        if nodes <= self._most or working_time() + expected > self.until:
+            return None
+        self._others, self._most = self._others + 1, nodes
         return found
 
     def _between(self, level: Level, errors: ErrorEstimate | None) -> tuple[int, int] | None:
