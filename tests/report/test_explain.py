@@ -198,6 +198,15 @@ def test_a_film_thicker_than_the_bodies_is_reported_and_not_solved():
         solve(problem, options)
 
 
+def test_a_ball_that_ends_before_its_inlet_begins_is_reported():
+    contact = {"load": "80 N", "entrainment_speed": 1.5}
+    ball, socket = ({"material": "steel", "radius": radius} for radius in (0.02, -0.02001))
+    case = explained(contact=contact, surface_1=ball, surface_2=socket)
+    assert any("but a body has a radius of 20 mm" in text for text in case.questions)
+    ring = {"material": "steel", "radius": -0.03}
+    assert explained(contact=contact, surface_1=ball, surface_2=ring).questions == ()
+
+
 def test_oil_that_is_too_cold_is_named_with_its_temperature_and_viscosity():
     tables = copy.deepcopy(ball_tables())
     tables["lubricant"] |= {"name": "mineral-oil", "temperature": "-60 degC"}
