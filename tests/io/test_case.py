@@ -44,7 +44,7 @@ def test_overrides_are_applied_before_anything_is_checked(case: Path):
 MISTAKES = [
     ("contact.laod=80 N", "contact.laod is not a known key", "did you mean load?"),
     ("numeric.points=129", "numeric is not a known key", "did you mean numerics?"),
-    ("numerics.tol=3", "numerics.tol is not a known key", "known are error"),
+    ("numerics.xyz=3", "numerics.xyz is not a known key", "known are error"),
     ("lubricant.viscosity.alfa=3", "lubricant.viscosity.alfa is not a known key", "alpha"),
     ("contact.width=10 mm", "contact.width is not a known key", 'type = "line"'),
     ("contact.line_load=1e5", "contact.line_load", "did you mean load_per_length?"),
@@ -194,6 +194,8 @@ MISTAKES = [
     ("contact.load=1\nx=2", "contact.load", '"80 N"'),
     ("surface_1.material=5", "surface_1.material = 5: must be the name", "or a table with young"),
     ("surface_1.material={E=1}", "surface_1.material.E is not", "did you mean young_modulus?"),
+    ("surface_1.rough=1", "surface_1.rough is not", "did you mean roughness?"),
+    ("lubricant.shear={law='limit'}", "unknown", "did you mean limiting?"),
     ("lubricant=5W-30", "is not a known oil", "such as that of tehl new data-sheet"),
     ("surface_1.material=[]", "surface_1.material = []: must be the name", "steel"),
     ("surface_1.material={young_modulus=2e11}", "poisson_ratio is missing", "such as 0.3"),

@@ -87,6 +87,7 @@ ODD = [
     ("lubricant.viscosity.alpha", "220 1/GPa", "alpha"),
     ("lubricant.density.rho_0", 0.89, "rho_0"),
     ("surface_1.rms_roughness", "1 um", "asperities"),
+    ("surface_1.rms_roughness", "1 mm", "roughness Sq = 1000 um: typical values are 0 to 100 um"),
     ("surface_1.material", {"young_modulus": 2e8, "poisson_ratio": 0.3}, "young_modulus"),
     ("contact.entrainment_speed", "0.1 mm/s", "continuum"),
     ("numerics.points", 33, "coarse"),

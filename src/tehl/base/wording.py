@@ -48,7 +48,7 @@ def suggestion_for(word: str, known: list[str]) -> str:
 
 
 def closest(word: str, known: list[str], alike: float) -> str:
-    """Return the question after the word that is most alike; empty without one.
+    """Return the question after the only word that begins alike, or is most alike; empty if none.
 
     Parameters
     ----------
@@ -59,7 +59,9 @@ def closest(word: str, known: list[str], alike: float) -> str:
     alike : float
         Least ratio of `difflib`, 0 to 1.
     """
-    close = difflib.get_close_matches(word[:100], known, n=1, cutoff=alike)
+    begun = [one for one in known if len(word) > 2 and one.startswith(word.lower())]
+    alone = begun if len(begun) == 1 else []
+    close = alone or difflib.get_close_matches(word[:100], known, n=1, cutoff=alike)
     return "".join(f"did you mean {one}?" for one in close)
 
 

@@ -148,6 +148,7 @@ def typical_ranges(scaled: ScaledProblem) -> Iterator[Typical]:
         *(() if problem.contact.has_lines else across),
         ("Moes M", groups.M, 1, 50000, "", rigid, "check the load: a fine grid is needed"),
         ("Moes L", groups.L, 0, 25, "", "check speed and viscosity"),
+        ("roughness Sq", problem.rms_roughness * 1e6, 0, 100, "um", _UNIT),
     ):
         yield Typical(*row)
     yield from _ranges_of_solid("surface_1", problem.surface_1)
