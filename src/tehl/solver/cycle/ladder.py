@@ -11,6 +11,7 @@ from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import raises_order
+from tehl.estimate.summits import shared_load
 from tehl.solver.cycle.continuation import Continuation
 from tehl.solver.cycle.relaxation import (
     BESIDE_NEWTON,
@@ -119,6 +120,12 @@ BETWEEN_ROUGH = (
     ),
     Strategy(relaxation=BESIDE_NEWTON, continuation=Continuation(points=5.0), newton=True),
 )
+HELD_APART, HELD_LOAD = Strategy(relaxation=FAST), 0.5
+"""Tried first between rough surfaces where asperities below the mesh carry more than that part of
+the load, by formulas: they hold the surfaces apart, so the film between heights is smooth. Cycles
+that are combined move load to and fro between oil and asperities (an ellipse with M = 214 and 99 %
+of the load on asperities: 4 % of it is missing after all strategies of rough surfaces, and none
+after 3 cycles of this one); three other contacts have the same film in half to all of the time."""
 TOUCHING = (
     # Anderson acceleration combines states that touch at other nodes: it takes more cycles
     Strategy(
@@ -204,20 +211,23 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
     if options.smoother != "auto":
         return (STATED[options.smoother],)
     if rough:
-        return _between_rough(problem, options)
+        return _between_rough(scaled, options)
     is_second = options.order < 3 and not raises_order(problem, options)
     if is_second or options.wedge_order is not None:
         return _rungs(problem)
     return _with_third_order(scaled, _rungs(problem))
 
 
-def _between_rough(problem: ContactProblem, options: Options) -> tuple[Strategy, ...]:
+def _between_rough(scaled: ScaledProblem, options: Options) -> tuple[Strategy, ...]:
     """Return the strategies for rough surfaces, those with a wedge of third order first."""
+    problem = scaled.problem
     # with heat, Newton steps converge no better than cycles, at ten times the cost
     cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
     # and their Jacobian lacks partly filled cavities
     rungs = cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
-    return _of_third_order_first(problem, options, cycles[:THIRD_ORDER_STRATEGIES], rungs)
+    found = _of_third_order_first(problem, options, cycles[:THIRD_ORDER_STRATEGIES], rungs)
+    is_held = problem.asperities is not None and shared_load(scaled).share > HELD_LOAD
+    return (HELD_APART, *found) if is_held else found
 
 
 def _of_third_order_first(
