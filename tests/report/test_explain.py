@@ -225,6 +225,7 @@ def test_an_extreme_pressure_is_reported(load: float, speed: float):
     case = explained(contact=contact)
     assert case.scaled.problem.hertz.pressure > 2e9
     assert case.questions
+    assert f"M = {load:g}   L = {speed}" in as_text(case)  # not 2e+04
 
 
 def test_a_stated_domain_is_used_as_given():

@@ -148,7 +148,7 @@ def _subtitle(result: Solution | TransientSolution, start: Solution) -> str:
     """Return groups, and the film of a steady result or the constant sliding of a transient one."""
     groups, film, scaled = start.groups, start.film, start.film_scaled
     about = (
-        f"M = {groups.M:.4g}, L = {groups.L:.4g}, "
+        f"M = {float(f'{groups.M:.4g}'):g}, L = {groups.L:.4g}, "  # 14300, not 1.43e+04
         f"$p_h$ = {start.scales.hertz_pressure * GIGA:.3g} GPa"
     )
     if start is not result:
