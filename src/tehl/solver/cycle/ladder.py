@@ -123,7 +123,7 @@ BETWEEN_ROUGH = (
 HELD_APART, HELD_LOAD = Strategy(relaxation=FAST), 0.5
 """Tried first between rough surfaces where asperities below the mesh carry more than that part of
 the load, by formulas: they hold the surfaces apart, so the film between heights is smooth. Cycles
-that are combined move load to and fro between oil and asperities (an ellipse with M = 214 and 99 %
+that are combined pass load from oil to asperities and back (an ellipse with M = 214 and 99 %
 of the load on asperities: 4 % of it is missing after all strategies of rough surfaces, and none
 after 3 cycles of this one); three other contacts have the same film in half to all of the time."""
 TOUCHING = (
