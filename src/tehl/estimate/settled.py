@@ -112,15 +112,19 @@ def _of_one_row(problem: ContactProblem, options: Options) -> Options:
 def crowds_at_ends(problem: ContactProblem) -> bool:
     """Return whether the lines of the grid crowd at the ends of a roller.
 
-    Heights, time steps and dynamics need uniform ones, and the film at the sharp ends of a straight
-    roller has no limit to resolve: only a film under a profile, smooth on the mesh and steady, has
-    crowded ones.
+    Heights, boundary contact and dynamics need uniform ones, and the film at the sharp ends of a
+    straight roller has no limit to resolve: only a film under a profile, smooth on the mesh, has
+    crowded ones, steady or in time.
     """
     is_profiled = problem.contact.profile is not None
-    return is_profiled and problem.dynamics is None and _is_smooth(problem)
+    return is_profiled and problem.dynamics is None and not _is_uneven(problem)
+
+
+def _is_uneven(problem: ContactProblem) -> bool:
+    """Whether heights or boundary contact make a film uneven on the mesh."""
+    return problem.is_rough or problem.contact_film is not None
 
 
 def _is_smooth(problem: ContactProblem) -> bool:
     """Whether a steady film is smooth on the mesh."""
-    rough = problem.is_rough or problem.contact_film is not None
-    return not rough and problem.transient is None
+    return not _is_uneven(problem) and problem.transient is None

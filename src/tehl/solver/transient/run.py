@@ -152,8 +152,8 @@ class Run:
         """Solve for the steady film at time zero, with the load of that time, rough or smooth.
 
         Heat and film may alternate by less than the mesh errs, and a tight solve may take all its
-        time on a grid that is too coarse: then the accuracy of the options is enough. A film that
-        no accuracy changes is not solved again.
+        time on a grid that is too coarse, or find it too coarse before its cycles end: then the
+        accuracy of the options is enough. A film that no accuracy changes is not solved again.
         """
         tight = options.model_copy(
             update={
@@ -167,7 +167,7 @@ class Run:
         now, end = working_time(), min(end_of_time(options), self.clock.until)
         attempt, result = solve(tight, until=now + TIGHT_TIME * (end - now))
         status = result.status
-        again = not (attempt.reached or attempt.is_final) or status.cause == "error_not_reached"
+        again = not attempt.reached or status.cause == "error_not_reached"
         if not status.converged and again and options.accuracy != "tight":
             attempt, result = solve(options, until=end)
         result = result.but(options=options)
