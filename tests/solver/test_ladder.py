@@ -396,7 +396,7 @@ def test_rough_contacts_fall_back_to_a_wedge_of_second_order_unless_nodes_or_ord
 def test_rough_surfaces_that_asperities_below_the_mesh_hold_apart_are_not_combined(
     rms: float, cycles: int, first: str
 ) -> None:
-    """Combined cycles pass 4 % of the load from oil to asperities and back: all strategies of rough surfaces fail."""
+    """Combined cycles pass 4 % of the load from oil to asperities and back, by all strategies."""
     tables = moes_contact(214.0, 7.9, radius_ratio=0.53).model_dump(exclude_none=True)
     tables["asperities"] = {
         "model": "greenwood-tripp",
