@@ -70,7 +70,6 @@ def test_a_film_below_the_floor_is_reported_as_such():
     assert "thinner than H = 0.01, the floor of the conductance" in no_film(level(0.004))
 
 
-@pytest.mark.usefixtures("no_pictures")
 @pytest.mark.parametrize(("slip", "named"), [(1.2, True), (0.0, False)])
 def test_an_oil_under_incredible_stress_is_named_where_hot_asperities_would_touch(
     slip: float, named: bool
@@ -83,6 +82,7 @@ def test_an_oil_under_incredible_stress_is_named_where_hot_asperities_would_touc
     assert ("lubricant.shear.law" in status.message) is named
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_an_open_minimum_is_reported_everywhere(result: Result, monkeypatch):
     monkeypatch.setattr("tehl.report.page.CAPTIONS", {})
     vague = replace(result, status=VAGUE)
