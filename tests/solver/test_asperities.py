@@ -699,6 +699,7 @@ def percent(part):
     return f"{float(f'{100 * part:.3g}'):g} %"
 
 
+@pytest.mark.slow
 def test_cycles_go_on_until_the_oil_between_asperities_balances():
     tables = {
         "contact": {

@@ -159,7 +159,9 @@ def test_cycles_on_lines_that_crowd_leave_a_third_of_the_residual(profile, point
     assert (residuals[5] / residuals[1]) ** 0.25 < 0.35
 
 
-@pytest.mark.parametrize("tilt", [0.0, 1e-4], ids=["even", "tilted"])
+@pytest.mark.parametrize(
+    "tilt", [pytest.param(0.0, marks=pytest.mark.slow, id="even"), pytest.param(1e-4, id="tilted")]
+)
 def test_a_thick_film_at_a_steep_end_converges(tilt):
     """By a geometric mean of conductances two pressures of a line had one flow, and alternated."""
     steep = roller(11.7, moes_speed=15.3, radius="8 mm", profile={"shape": "lundberg"}, tilt=tilt)

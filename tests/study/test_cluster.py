@@ -32,6 +32,7 @@ def test_a_cluster_finds_what_one_process_finds_and_keeps_fields(cluster, tmp_pa
     assert there.result(cases(1)[0]).status.converged
 
 
+@pytest.mark.slow
 def test_a_case_that_kills_its_workers_fails_alone(cluster, tmp_path, monkeypatch):
     monkeypatch.setattr(runner, "work", mishaps.deadly)
     store = Store(tmp_path)
