@@ -87,6 +87,17 @@ def test_quiet_shows_no_progress(folder, solver, run):
     assert "residual" not in run("solve", "ball.toml", "--quiet").err
 
 
+def test_values_that_are_not_plausible_are_asked_about_after_the_numbers(folder, solver, run):
+    """A film under a pressure of 18 GPa has numbers that look like any others."""
+    heavy = ("solve", "ball.toml", "--set", "contact.load=1 MN")
+    asked = run(*heavy).err
+    assert "Please check\n  - " in asked
+    assert "GPa" in asked.split("Please check")[1]
+    for quiet in ("--quiet", "--json"):
+        assert "Please check" not in run(*heavy, quiet).err
+    assert "Please check" not in run("solve", "ball.toml").err
+
+
 def test_json_prints_one_object_and_nothing_else(folder, solver, run):
     done = run("solve", "ball.toml", "--json")
     assert json.loads(done.out)["status"] == "converged"

@@ -12,7 +12,7 @@ from tehl.api.results import ConvergenceError, Result, TransientResult
 from tehl.base.atomic import check_folder, check_writable, remove_with_parts
 from tehl.base.errors import InputError
 from tehl.base.lazy import lazy
-from tehl.cli.lazily import plots, solvers
+from tehl.cli.lazily import explanations, plots, solvers
 from tehl.cli.lines import show
 from tehl.cli.progress import busy, progress
 from tehl.cli.reference_runs import REFERENCES, Comparisons, compare, smooth_file
@@ -85,9 +85,19 @@ def run(job: Job) -> bool:
     elif references and failure is None:
         compared = _compared(result, references, job)
     _show(result, compared, job)
+    _ask(problem, options, job)
     if failure is not None:
         show(failure_text(result.status, failure), err=True)
     return failure is None
+
+
+def _ask(problem: ContactProblem, options: Options, job: Job) -> None:
+    """Print which values of the case are not plausible, as ``tehl explain`` does."""
+    if job.as_json or job.quiet:
+        return
+    questions = explanations.explain(problem, options).questions
+    if questions:
+        show("\n".join(["Please check", *(f"  - {one}" for one in questions)]), err=True)
 
 
 def _check_outputs(job: Job) -> None:
