@@ -168,8 +168,7 @@ SHAPES = {
         "circle",
         "conserving circle",
         "starved circle",
-        "line",
-        pytest.param("starved line", marks=pytest.mark.slow),
+        *(pytest.param(one, marks=pytest.mark.slow) for one in ("line", "starved line")),
     ],
 )
 def test_a_wedge_of_third_order_stays_so_while_the_speed_varies(shape):
@@ -202,6 +201,7 @@ def test_a_node_where_a_starved_film_begins_comes_to_rest_between_two_values():
     assert run.history.cycles.max() < 8
 
 
+@pytest.mark.slow
 def test_a_film_that_touches_errs_less_by_geometric_means_while_the_load_varies():
     case = moes_contact(50, 5)
     unit = scales(case).half_width_x / scales(case).speed

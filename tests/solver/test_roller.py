@@ -368,6 +368,7 @@ def test_the_film_is_thin_where_a_roller_leaves_the_raceway():
     assert difference < coarse.errors.minimum < 0.07
 
 
+@pytest.mark.slow
 def test_lines_crowd_at_the_steep_end_of_the_loaded_part():
     """On longer cells, which crowd at the end of the roller, the minimum is 0.0030."""
     found = tehl.solve(
