@@ -102,7 +102,7 @@ def test_a_string_with_a_unit_becomes_si(kind: object, text: object, value: floa
         ("1 200 N", "has a space in its number, leave it out"),
         ("1'200 N", "has a mark between its thousands, leave it out"),
         ("1,200 N", "has a comma in its number: .* no mark between thousands"),
-        ("1.2·10^3 N", "has a power of ten apart from its number: write 2.2e-8"),
+        ("1.2·10^3 N", "has a power of ten apart: write it as in 2.2e-8"),
         ("80 J/kg m", "unit of another quantity"),
         ("nan N", "is not a number"),
         ("eighty N", "does not begin with a number"),

@@ -90,7 +90,7 @@ _WRONG_NUMBERS = (
     (r",\d", "a comma in its number: write a decimal point, and no mark between thousands"),
     (r"\d{3}\b", "a space in its number, leave it out"),
     (r"['’]\d{3}\b", "a mark between its thousands, leave it out"),
-    (r"\s*[x×·*]\s*10\s*(\^|\*\*|[-+⁻⁺])", "a power of ten apart from its number: write 2.2e-8"),
+    (r"\s*[x×·*]\s*10\s*(\^|\*\*|[-+⁻⁺])", "a power of ten apart: write it as in 2.2e-8"),
 )
 """What may stand in place of a unit where a number is spelled wrongly, and what is wrong."""
 
