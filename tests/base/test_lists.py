@@ -4,7 +4,7 @@ import pytest
 from openpyxl import Workbook
 
 from tehl.base.errors import InputError
-from tehl.base.lists import lines_of
+from tehl.base.lists import Doubtful, lines_of, lines_of_file
 from tehl.contact.columns import read_columns
 
 TEXT = "u_m [m/s];T [°C]\n0,5;40\n"
@@ -22,7 +22,6 @@ def test_a_list_of_any_spreadsheet_is_read(tmp_path, encoding):
     [
         ("sep=;\nload [N];mark\n1.111,5;1.5\n0,5;b\n", ["1111.5", "0.5"]),
         ("load [N];mark\n1.111;a\n0.5;b\n", ["1.111", "0.5"]),
-        ("load [N];mark\n1.111.000;a\n0,5;b\n", None),
     ],
 )
 def test_thousands_of_excel_are_read_or_refused_and_never_taken_for_fractions(
@@ -30,15 +29,18 @@ def test_thousands_of_excel_are_read_or_refused_and_never_taken_for_fractions(
 ):
     path = tmp_path / "list.csv"
     path.write_text(text)
-    if values is None:
-        with pytest.raises(
-            InputError, match=r"line 2: 1\.111\.000 has a point, .* write 1111000 or"
-        ):
-            lines_of(path)
-    else:
-        first = 2 if text.startswith("sep") else 1
-        assert [line[0] for _, line in lines_of(path)] == ["load [N]", *values]
-        assert lines_of(path)[0][0] == first
+    first = 2 if text.startswith("sep") else 1
+    assert [line[0] for _, line in lines_of(path)] == ["load [N]", *values]
+    assert lines_of(path)[0][0] == first
+
+
+def test_a_cell_that_may_be_two_numbers_is_kept_and_refused_where_a_number_is_needed(tmp_path):
+    path = tmp_path / "list.csv"
+    path.write_text("load [N];mark\n1.111.000;22.205\n0,5;b\n")
+    assert lines_of(path)[1] == (2, [Doubtful("1.111.000"), Doubtful("22.205")])
+    message = r"line 2: 1\.111\.000 has a point, .* write 1111000$"
+    with pytest.raises(InputError, match=message):
+        lines_of_file(path)
 
 
 def test_a_folder_and_formulas_without_values_are_refused(tmp_path):

@@ -215,14 +215,16 @@ def test_wrong_rows_are_named_and_the_others_are_solved_equal_ones_once(tmp_path
 def test_a_list_with_decimal_commas_comes_back_with_them(tmp_path, template):
     """Else the spreadsheet that saved it puts each line into one cell."""
     path, out = tmp_path / "list.csv", tmp_path / "out.csv"
-    text = "remark;load [N];speed [m/s]\nV 1.5;20,5;1\nwrong;-3,5e0;1\n"
+    text = "bearing;load [N];speed [m/s]\n22.205;20,5;1\nwrong;-3,5e0;1\nmany or few;1.205;1\n"
     path.write_text(text, encoding="utf-8-sig")
     done = command(path, "-o", out, "--template", template, "-j", 1, "--quiet")
     assert done.exit_code == 1
-    head, first, second = out.read_text(encoding="utf-8").splitlines()
-    assert head.startswith("\ufeffremark;load [N];speed [m/s];")
-    assert first.startswith("V 1.5;20,5;1;")
+    head, first, second, third = out.read_text(encoding="utf-8").splitlines()
+    assert head.startswith("\ufeffbearing;load [N];speed [m/s];")
+    assert first.startswith("22.205;20,5;1;")
     assert second.startswith("wrong;-3,5e0;1;")
+    assert third.startswith("many or few;1.205;1;")
+    assert 'column ""load [N]"": 1.205 has a point' in third
     table = pd.read_csv(out, sep=";", decimal=",")
     case = tmp_path / "same.toml"
     case.write_text(COARSE.replace("20 N", "20.5 N"))

@@ -28,6 +28,23 @@ _STATED_DELIMITER = re.compile(r'"?sep=(.)"?\s*', re.IGNORECASE)
 _UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
 LARGEST_LIST = 50_000_000
 """Bytes of a list."""
+
+
+class Doubtful(str):
+    """A cell such as ``1.234`` among decimal commas: twelve hundred, or a little more than one."""
+
+    __slots__ = ()
+
+    @property
+    def mistake(self) -> str:
+        """What is wrong with it where a number is needed."""
+        fraction = f" or {self.replace('.', ',')}" if self.count(".") == 1 else ""
+        return (
+            f"{self} has a point, but this list has decimal commas: "
+            f"write {self.replace('.', '')}{fraction}"
+        )
+
+
 _PACKAGES = {".xlsx": ("openpyxl", "xlsx"), ".parquet": ("pyarrow", "parquet")}
 """Packages of formats, and the extras that install them."""
 
@@ -112,13 +129,18 @@ def values_of_file(path: Path, column: str) -> list[Any]:
 def lines_of_file(path: Path, what: str = "list of cases") -> list[list[str]]:
     """Return the cells of :func:`lines_of` as texts, without the numbers of the lines."""
     lines = lines_of(path, what)
+    for number, cells in lines:
+        for cell in cells:
+            if isinstance(cell, Doubtful):
+                raise InputError(f"{shortened(path)}: line {number}: {cell.mistake}")
     return [["" if cell is None else str(cell) for cell in line] for _, line in lines]
 
 
 def lines_of(path: Path, what: str = "list of cases") -> list[tuple[int, list[Any]]]:
     """Return the numbers and the cells of the lines of a file that are not empty, headings first.
 
-    All lines have as many cells as the first one; an empty cell is None.
+    All lines have as many cells as the first one; an empty cell is None, and one that may be two
+    numbers is `Doubtful`.
 
     Parameters
     ----------
@@ -175,14 +197,9 @@ def _csv(path: Path) -> Iterator[tuple[int, list[str]]]:
         number = reader.line_num + skipped
         cells = [cell.strip() for cell in line]
         if spelling.decimal == ",":
-            for cell in cells:
-                if (found := _THOUSANDS.fullmatch(cell)) is not None:
-                    plain = _joined(found)
-                    raise InputError(
-                        f"line {number}: {cell} has a point, but this list has decimal commas: "
-                        f"write {plain} or {cell.replace('.', ',', 1)}"
-                    )
-            cells = [_pointed(cell) for cell in cells]
+            cells = [
+                Doubtful(cell) if _THOUSANDS.fullmatch(cell) else _pointed(cell) for cell in cells
+            ]
         yield number, cells
 
 
@@ -249,7 +266,8 @@ _READERS: dict[str, tuple[str, Callable[[Path], Iterable[tuple[int, list[Any]]]]
 
 def stripped(cell: Any) -> Any:
     """Return a cell without blanks around its text; None if nothing is left."""
-    return (cell.strip() or None) if isinstance(cell, str) else cell
+    is_text = isinstance(cell, str) and not isinstance(cell, Doubtful)
+    return (cell.strip() or None) if is_text else cell
 
 
 def check_format(path: Path, endings: Sequence[str], what: str) -> None:
@@ -301,7 +319,8 @@ def _joined(match: re.Match[str]) -> str:
 
 
 def _with_comma(cell: Any) -> Any:
-    return _DECIMAL_POINT.sub(r"\1,\2", cell) if isinstance(cell, str) else cell
+    as_read = not isinstance(cell, str) or isinstance(cell, Doubtful)
+    return cell if as_read else _DECIMAL_POINT.sub(r"\1,\2", cell)
 
 
 def heading(cell: str) -> tuple[str, str]:

@@ -159,11 +159,17 @@ def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
 
 
 def _frame_of(headings: Sequence[str], lines: Iterable[Mapping[str, Any]]) -> "pd.DataFrame":
-    """Return lines as a frame with these columns."""
+    """Return lines as a frame with these columns; texts stay what they are, `Doubtful` too."""
     import pandas as pd  # noqa: PLC0415 (0.5 s)
 
-    return pd.DataFrame.from_records(
-        [[line.get(name) for name in headings] for line in lines], columns=list(headings)
+    rows = list(lines)
+    columns = {name: [row.get(name) for row in rows] for name in headings}
+    has_text = {name: any(isinstance(one, str) for one in columns[name]) for name in headings}
+    return pd.DataFrame(
+        {
+            name: pd.Series(column, dtype=object if has_text[name] else None)
+            for name, column in columns.items()
+        }
     )
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from tehl.api.problem import case_from_tables
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
-from tehl.base.lists import Spelling, lines_of, lines_of_frame, spelling_of, value_of
+from tehl.base.lists import Doubtful, Spelling, lines_of, lines_of_frame, spelling_of, value_of
 from tehl.io.case import changed, tables_of_text, toml_tables
 from tehl.io.templates import template_text
 from tehl.studies.case import Case
@@ -208,11 +208,23 @@ def stated_in(columns: Sequence[Column], cells: Sequence[Any]) -> dict[str, Any]
         Those without a key are left out.
     cells : sequence
         Of the row, in the same order; None is empty.
+
+    Raises
+    ------
+    InputError
+        If a cell that is not the title may be two numbers.
     """
-    return {
-        one.key: str(cell) if one.key == TITLE else value_of(cell, one.unit)
+    stated = [
+        (one, cell)
         for one, cell in zip(columns, cells, strict=True)
         if one.key is not None and cell is not None
+    ]
+    for one, cell in stated:
+        if isinstance(cell, Doubtful) and one.key != TITLE:
+            raise InputError(f'column "{one.heading}": {cell.mistake}')
+    return {
+        str(one.key): str(cell) if one.key == TITLE else value_of(cell, one.unit)
+        for one, cell in stated
     }
 
 

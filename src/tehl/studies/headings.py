@@ -42,7 +42,7 @@ _WORDS = (
         "lubricant.viscosity.alpha": "alpha pressure_viscosity_coefficient",
         "supply.ratio": "supply_ratio",
         "numerics.error": "error accuracy",
-        "title": "title name contact position id no number nr",
+        "title": "title name contact position id no number nr bearing designation",
     }
     | {
         f"surface_{side}.{key}": " ".join(f"{word}_{side} {word}{side}" for word in words.split())
@@ -174,7 +174,11 @@ def check_columns(columns: Sequence[Column], lines: Sequence[Sequence[Any]]) -> 
             known = [*_KEYS, *_paths()]
             word = re.split(r"[\[(/]", one.heading)[0].strip().lower()
             near = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
-            guess = f"did you mean {near[0]}?" if near else "take a key of the case file"
+            guess = (
+                f"did you mean {near[0]}?"
+                if near
+                else "take a key of the case file, or title if it names the rows"
+            )
             if is_per_turn(one.unit):
                 guess = (
                     "a contact has speeds, or a rotational speed with the radius at which the "
