@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import cache
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -97,16 +98,22 @@ def way_of(velocity: Callable[[float], Velocity], spin: float, step: float) -> W
     step : float
         Time step [a_x/u_m].
     """
-    nodes, weights = np.polynomial.legendre.leggauss(NODES_PER_STEP)
     along = across = 0.0
-    for node, weight in zip(0.5 * (nodes + 1.0), 0.5 * weights, strict=True):
-        u, v = velocity(float(node))
-        left = spin * step * (1.0 - float(node))
+    for node, weight in _nodes_of_gauss():
+        u, v = velocity(node)
+        left = spin * step * (1.0 - node)
         if left != 0.0:
             u, v = _turned(left, u, v)
-        along += float(weight) * step * u
-        across += float(weight) * step * v
+        along += weight * step * u
+        across += weight * step * v
     return Way(along, across, spin * step)
+
+
+@cache
+def _nodes_of_gauss() -> tuple[tuple[float, float], ...]:
+    """Return nodes and weights of Gauss on 0 to 1."""
+    nodes, weights = np.polynomial.legendre.leggauss(NODES_PER_STEP)
+    return tuple(zip((0.5 * (nodes + 1.0)).tolist(), (0.5 * weights).tolist(), strict=True))
 
 
 def _turned(angle: float, x: Number, y: Number) -> tuple[Number, Number]:
