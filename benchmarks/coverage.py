@@ -117,7 +117,7 @@ def _off(result: Result, nodes: int, *, heated: bool) -> dict[str, float]:
         return {}
     try:
         combined = result.errors is not None and result.errors.extrapolated
-        judge = attempt(result.problem, Options(points=finer, extrapolate=combined))
+        judge = attempt(result.problem, Options(points=finer, extrapolate=combined, wedge_order=3))
     except InputError:
         return {}
     here, there, known = values(result), values(judge), bars(result)
