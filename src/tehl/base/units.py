@@ -19,6 +19,7 @@ Dimension = tuple[int, int, int, int]
 """Exponents of metre, kilogram, second, kelvin."""
 
 _NONE: Dimension = (0, 0, 0, 0)
+_MASS: Dimension = (0, 1, 0, 0)
 _FORCE: Dimension = (1, 1, -2, 0)
 _PRESSURE: Dimension = (-1, 1, -2, 0)
 _ENERGY: Dimension = (2, 1, -2, 0)
@@ -69,8 +70,27 @@ _UNITS: dict[str, tuple[float, Dimension]] = {
     "cSt": (1e-6, (2, 0, -1, 0)),
     "St": (1e-4, (2, 0, -1, 0)),
 }
-_CELSIUS = ("degC", "°C", "C", "deg C")
-_ZERO_CELSIUS = 273.15
+_POUND = 4.4482216152605
+"""Newtons of a pound-force, exactly."""
+_PSI = _POUND / 0.0254**2
+_UNITS |= {
+    **dict.fromkeys(("in", "inch"), (0.0254, (1, 0, 0, 0))),
+    **dict.fromkeys(("mil", "thou"), (2.54e-05, (1, 0, 0, 0))),
+    **dict.fromkeys(("uin", "µin", "μin", "microinch"), (2.54e-08, (1, 0, 0, 0))),
+    "ft": (0.3048, (1, 0, 0, 0)),
+    "lbf": (_POUND, _FORCE),
+    "lb": (_POUND / 9.80665, _MASS),
+    "psi": (_PSI, _PRESSURE),
+    "ksi": (1e3 * _PSI, _PRESSURE),
+    "Msi": (1e6 * _PSI, _PRESSURE),
+    "reyn": (_PSI, (-1, 1, -1, 0)),
+    **dict.fromkeys(("degF", "°F"), (5.0 / 9.0, (0, 0, 0, 1))),
+}
+_TEMPERATURES = {
+    **dict.fromkeys(("degC", "°C", "C", "deg C"), (1.0, 273.15)),
+    **dict.fromkeys(("degF", "°F", "F", "deg F"), (5.0 / 9.0, 273.15 - 160.0 / 9.0)),
+}
+"""Kelvins per degree, and temperature at zero degrees [K]."""
 _ANGLE_UNITS = ("rad", "mrad", "deg", "°", "arcmin")
 
 
@@ -97,7 +117,7 @@ _WRONG_NUMBERS = (
 
 def plain_signs(text: str) -> str:
     """Return a text with the signs of keyboards in place of those that look alike."""
-    return re.sub(r"°\s+C\b", "°C", text.translate(_LOOKALIKES))
+    return re.sub(r"°\s+([CF])\b", r"°\1", text.translate(_LOOKALIKES))
 
 
 def is_per_turn(text: str) -> bool:
@@ -232,8 +252,9 @@ class Quantity:
             raise ValueError(f"lacks a unit; {self.expected}, or a number in SI without quotes")
         if not unit:
             return number
-        if self.unit == "K" and unit in _CELSIUS:
-            return number + _ZERO_CELSIUS
+        if self.unit == "K" and unit in _TEMPERATURES:
+            per_degree, zero = _TEMPERATURES[unit]
+            return number * per_degree + zero
         if turning := _TURNING.match(unit):
             return number * self._per_turn(unit, unit[turning.end() :].strip())
         factor = self._factor(f"1{unit}" if unit.startswith("/") else unit)  # 22/GPa
@@ -434,7 +455,7 @@ _KINDS = {
         *(Temperature, TemperatureCoefficient, Density, Conductivity),
         *(HeatCapacity, VolumeHeatCapacity),
     )
-}
+} | {_MASS: "a mass"}
 """What a value with another unit is, by its dimension."""
 _CONVERSIONS = {
     (quantity(KinematicViscosity).dimension, quantity(Viscosity).dimension): (
@@ -443,5 +464,6 @@ _CONVERSIONS = {
     (quantity(VolumeHeatCapacity).dimension, quantity(HeatCapacity).dimension): (
         'divide it by the density, also with basis = "volume"'
     ),
+    (_MASS, _FORCE): "a force has N, kN or lbf",
 }
 """How to convert what was given to what is expected, by their dimensions."""

@@ -66,7 +66,7 @@ NO_WORDS: Mapping[str, str] = {}
 _KEYS = {word: key for key, words in _WORDS.items() for word in words.split()}
 """Keys of the case by words of headings."""
 _SIGNS = str.maketrans({"µ": "u", "μ": "u", "²": "^2", "³": "^3", "·": " ", "⋅": " ", "−": "-"})
-_DEGREES = {"C": "degC", "°": "deg"}
+_DEGREES = {"C": "degC", "F": "degF", "°": "deg"}
 _HEADING = re.compile(
     r"(?P<name>.+?)\s*(?:\[(?P<a>.*)\]|\((?P<b>.*)\)|\s+in\s+(?P<c>\S.*)|\s*/\s*(?P<d>\S.*))\s*"
 )
@@ -122,7 +122,7 @@ def by_unit(column: Column) -> Column:
 def unit_of(text: str) -> str:
     """Return a unit as case files spell it."""
     plain = text.strip().strip("[]()").strip()
-    plain = plain_signs(plain).replace("°C", "degC")
+    plain = plain_signs(plain).replace("°C", "degC").replace("°F", "degF")
     return _DEGREES.get(plain, plain.translate(_SIGNS))
 
 
