@@ -61,9 +61,9 @@ def test_a_sweep_against_x_is_the_mirror_image_of_one_along_x(drift):
         turned = [field[:, ::way].copy(order="C") for field in film[:7]]
         moved = film._replace(**dict(zip(film._fields[:7], turned, strict=True)))
         moved = moved._replace(
-            speed=way * np.linspace(0.5, 1.5, 9), drift=drift * np.linspace(-1.0, 1.0, 24)[::way]
+            speed=way * np.linspace(0.5, 1.5, 9),
+            drift=np.tile(drift * np.linspace(-1.0, 1.0, 24)[::way], (9, 1)),
         )
-        moved = moved._replace(drift=np.ascontiguousarray(moved.drift))
         settings = relaxation_of(shape, xi=20.0, omega=(0.7, 0.6), influence=0.2)
         shapes = settings.shapes
         curved = np.array([shapes.point[1, :, 0], shapes.dipole[1, :, 0]])

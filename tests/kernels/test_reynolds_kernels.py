@@ -40,7 +40,9 @@ def test_surfaces_that_do_not_spin_have_the_plain_wedge_turned_in_any_direction(
         moved = film._replace(**dict(zip(film._fields[:7], turned, strict=True)))
         out = np.empty(shape)
         reynolds.operator(
-            moved._replace(speed=speed, drift=drift), stencil._replace(fore=fore), out
+            moved._replace(speed=speed, drift=np.tile(drift, (9, 1))),
+            stencil._replace(fore=fore),
+            out,
         )
         np.testing.assert_allclose(out, turn(plain), rtol=1e-12, atol=1e-11)
 

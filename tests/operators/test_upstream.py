@@ -20,7 +20,7 @@ def test_the_sums_are_those_of_a_long_inlet(alpha):
     slope = numbers.lambda_bar * (film - FLUX) / film**3
     plain = np.concatenate([[0.0], np.cumsum(0.5 * (slope[1:] + slope[:-1]) * np.diff(x))])
     pressure = -np.log(1.0 - alpha * plain) / alpha if alpha else plain
-    found = beyond(EDGE, np.array([FILM]), np.array([FLUX]), numbers)
+    found = beyond(EDGE, np.array([FILM]), np.array([FLUX]), numbers, speed=np.ones(1))
     # the viscosity is that of a pressure that falls as the third power
     assert found.pressure == pytest.approx(pressure[-1], rel=2e-3 if alpha else 1e-6)
     assert found.load == pytest.approx(np.trapezoid(pressure, x), rel=5e-3 if alpha else 1e-3)

@@ -71,7 +71,7 @@ def test_the_jacobian_is_the_derivative_of_the_operator(
             fine.equations, stencil=fine.stencil._replace(third=weight, fore=30)
         )
     if spins:  # in some rows the oil moves against x
-        moves = Entrainment(1.0 - fine.grid.y, 0.7 * fine.grid.x)
+        moves = Entrainment(1.0 - fine.grid.y, np.tile(0.7 * fine.grid.x, (shape[0], 1)))
         fine.film = fine.film._replace(speed=moves.speed, drift=moves.drift)
     rng = np.random.default_rng(1)
     change = np.where(fine.film.p > 0.05, rng.standard_normal(shape), 0.0)
@@ -99,13 +99,20 @@ def test_the_jacobian_is_the_derivative_of_the_operator(
     assert errors[1] < 0.1 * errors[0] + 1e-6
 
 
-@pytest.mark.parametrize("mirror", [True, False])
-def test_the_jacobian_of_a_roller_is_the_derivative_of_the_operator(mirror: bool) -> None:
-    """What lines conduct to each other depends on both films beside the conductances."""
-    scaled = ScaledProblem.of(roller(20.0, length="2 mm", profile={"shape": "logarithmic"}))
+@pytest.mark.parametrize(("mirror", "spin"), [(True, 0.0), (False, 0.0), (False, 1.3)])
+def test_the_jacobian_of_a_roller_is_the_derivative_of_the_operator(
+    mirror: bool, spin: float
+) -> None:
+    """What lines conduct to each other depends on both films beside the conductances.
+
+    With the spin lines beside one end move against x.
+    """
+    stated = {"length": "2 mm", "profile": {"shape": "logarithmic"}}
+    omega = spin * roller(20.0, **stated).entrainment_speed / 1e-3
+    scaled = ScaledProblem.of(roller(20.0, spin_1=omega, spin_2=omega, **stated))
     ends = Domain.model_construct(x=(-3.0, 1.6), y=ROLLER_ENDS)
     grid = Grid(nx=POINTS, ny=POINTS, domain=ends, mirror=mirror, crowding=1.5)
-    options = Options(deformation="fft", edges="zero")
+    options = Options(deformation="fft", edges="zero", wedge_order=3 if spin else 2)
     fine = Level(Equations.on(grid, scaled, flow_table(scaled), options), ROUGH)
     pose_problem(fine)
     from_dry_pressure(fine, 0.1)
@@ -114,7 +121,10 @@ def test_the_jacobian_of_a_roller_is_the_derivative_of_the_operator(mirror: bool
     fine.update()
     change = np.where(fine.film.p > 0.05, rng.standard_normal(shape), 0.0)
     by_pressure, by_film = jacobian(
-        fine.film, fine.stencil, neighbours_of(grid, fine.stencil), *conductance_slopes(fine)
+        fine.film,
+        fine.stencil,
+        neighbours_of(grid, fine.stencil, fine.equations.entrainment),
+        *conductance_slopes(fine),
     )
     bent = np.empty(shape)
     fine.equations.deformation.deflect(change, bent)

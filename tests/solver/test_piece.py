@@ -321,7 +321,11 @@ def test_a_piece_has_as_many_lines_as_its_waves_need():
         ),
         ({"slide_roll_ratio": 2.0}, {"thermal": {"temperature": "40 degC"}}, "at rest"),
         ({"type": "point"}, {}, "has ends"),
-        ({"ends": "periodic", "spin_1": "10 rpm"}, {}, "all lines of a roller have one speed"),
+        (
+            {"ends": "periodic", "spin_1": "10 rpm"},
+            {},
+            "spin times distance along the line, without end",
+        ),
     ],
 )
 def test_what_a_piece_cannot_state_is_said_in_one_sentence(kind, stated, reason):

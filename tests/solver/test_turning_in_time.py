@@ -154,7 +154,7 @@ def missing_oil(nodes: int, **turn: float) -> float:
     whole = Run(problem, options, problem.transient, SILENT)
     level, oil, grid = whole.level, whole.stepper.oil, whole.level.grid
     inside = (np.abs(grid.y) < 0.6)[:, None] & (grid.x > -1.2) & (grid.x < 0.5)
-    ways = oil.ways if turn else Entrainment(np.ones(grid.ny), np.zeros(grid.nx))
+    ways = oil.ways if turn else Entrainment(np.ones(grid.ny), np.zeros(grid.shape))
     for step in range(1, whole.steps + 1):
         before, places = oil.now.copy(), whole.schedule.places(step)
         whole.stepper.step(sum(whole.heights.at(step * whole.seconds, places)), step)
@@ -175,7 +175,7 @@ def _outflow(level, mass, ways, inside) -> float:
         total += sign * (moved - pressed).sum() * grid.dy
     for edge, sign in ((rows[-1], 1), (rows[0] - 1, -1)):
         south, north = np.s_[edge, columns], np.s_[edge + 1, columns]
-        drift = ways.drift[columns] * grid.dy / grid.dx
+        drift = ways.drift[0, columns] * grid.dy / grid.dx
         moved = drift * 0.5 * (mass[south] + mass[north])
         pressed = 0.5 * (film.eps[south] + film.eps[north]) * (film.p[north] - film.p[south])
         total += sign * (moved - pressed / grid.dy).sum() * grid.dx

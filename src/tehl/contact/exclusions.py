@@ -12,14 +12,10 @@ SOLID_PART = (
     "computed"
 )
 """Why stiffness and damping are not computed where surfaces touch."""
-SPIN_OF_LINES = {
-    True: "with spin the speed would change by spin times distance along the line, without end",
-    False: (
-        "so far all lines of a roller have one speed; state it in slices, each a line of its own "
-        "speed"
-    ),
-}
-"""Why lines do not spin, and why rollers do not yet, by whether the contact is a line."""
+SPIN_OF_LINES = (
+    "with spin the speed would change by spin times distance along the line, without end"
+)
+"""Why lines, and pieces of rollers that go on, do not spin."""
 LARGEST_TURN = 0.8
 """Largest spin of a heated surface times a_y over its speed: beyond it rows of the contact have too
 little speed along x for their heat to be followed from station to station."""
@@ -35,6 +31,7 @@ def check_motion(problem: PointContact) -> None:
     if not turned:
         return
     supply, law = problem.supply, problem.asperities
+    goes_on = contact.is_line or contact.ends != "open"
     one_is_rougher = problem.surface_1.rms_roughness != problem.surface_2.rms_roughness
     excluded = {
         "supply.passes": (
@@ -49,9 +46,9 @@ def check_motion(problem: PointContact) -> None:
             law is not None and one_is_rougher and getattr(law, "rms", None) is None,
             "the rougher surface carries oil along x alone; state asperities.rms of both together",
         ),
-        f'contact.type = "{contact.type}"': (
-            contact.has_lines and turned != ["sliding_angle"],
-            SPIN_OF_LINES[contact.is_line],
+        'contact.type = "line"' if contact.is_line else f'contact.ends = "{contact.ends}"': (
+            goes_on and turned != ["sliding_angle"],
+            SPIN_OF_LINES,
         ),
         'contact.ends = "mirrored"': (
             contact.ends == "mirrored",

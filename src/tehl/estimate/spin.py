@@ -22,6 +22,18 @@ def spin_number(scaled: ScaledProblem) -> float:
     return scaled.problem.motion.mean_spin * scaled.scales.half_width_x / scaled.scales.speed
 
 
+def slowing(scaled: ScaledProblem, y: Array) -> Array:
+    """Return what spin takes from the mean speed along x of some rows, over u_m, (n,).
+
+    Parameters
+    ----------
+    scaled, y : ScaledProblem, Array
+        The motion, and the rows [a_y].
+    """
+    spin = spin_number(scaled)
+    return spin * scaled.groups.ellipticity * y if spin != 0.0 else np.zeros(y.size)
+
+
 def spins(scaled: ScaledProblem) -> tuple[float, float, float]:
     """Return the same of the mean motion and of both surfaces [-]."""
     motion, unit = scaled.problem.motion, scaled.scales.half_width_x / scaled.scales.speed
@@ -50,11 +62,12 @@ def spin_error(scaled: ScaledProblem) -> float:
     """Return the relative error of the film by what spin changes outside the domain.
 
     A paraboloid that spins about its axis moves no oil. The gap of an ellipse does, the more the
-    farther out: its load grows with the logarithm of the radius, and is not on the grid.
+    farther out: its load grows with the logarithm of the radius, and is not on the grid. Nothing is
+    beside the ends of a roller.
     """
     groups, spin = scaled.entering, abs(spin_number(scaled))
     ratio, twist = groups.radius_ratio, groups.twist / groups.ellipticity
-    if spin == 0.0 or scaled.problem.contact.is_line:
+    if spin == 0.0 or scaled.problem.contact.has_lines:
         return 0.0
     unequal = math.hypot(1.0 - ratio, 2.0 * twist) / ((ratio - twist**2) * (1.0 + ratio))
     load = LOAD_PER_E_FOLD * groups.lambda_bar * spin * unequal

@@ -32,6 +32,7 @@ _SUPPLIES: dict[str, tuple[str, Any]] = {
 }
 
 _OF_A_WHOLE_ROLLER = ("profile", "tilt", "tilting_moment")
+_SPINS = ("spin_1", "spin_2")
 
 
 @dataclass(frozen=True)
@@ -112,7 +113,7 @@ def kind(state: State) -> Choice:
     )
     keys = ("load", "load_per_length", "moes_load", "length", "ends", *_OF_A_WHOLE_ROLLER)
     point = {f"contact.{key}": None for key in keys} | {"contact.hertz_pressure": pressure}
-    turned = ("radius_x", "radius_y", "entrainment_angle", "spin_1", "spin_2")
+    turned = ("radius_x", "radius_y", "entrainment_angle", *_SPINS)
     line = point | {f"contact.{key}": None for key in turned}
     line |= {"contact.radius": radius} if contact.radii is not None else {}
     # as usual for rollers: 15 times the width of the line contact
@@ -131,7 +132,7 @@ def roller_ends(state: State) -> Choice | None:
     contact, path = state.problem.contact, "contact.ends"
     if contact.type != "roller":
         return None
-    straight: Settings = {f"contact.{key}": None for key in _OF_A_WHOLE_ROLLER}
+    straight: Settings = {f"contact.{key}": None for key in (*_OF_A_WHOLE_ROLLER, *_SPINS)}
     options: dict[str, tuple[str, Settings]] = {
         "open": ("free", {path: None}),
         "mirrored": ("it goes on, mirrored", {path: "mirrored"} | straight),

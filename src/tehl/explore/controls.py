@@ -122,8 +122,9 @@ def _has_tilt(state: State, path: str) -> bool:
     return choices.is_whole_roller(state) and by_moment == path.endswith("moment")
 
 
-def _is_point(state: State, _: str) -> bool:
-    return not _is_rolled(state)
+def _may_spin(state: State, _: str) -> bool:
+    """Return whether it is a contact with ends, whose speed changes along y by a spin."""
+    return not _is_rolled(state) or choices.is_whole_roller(state)
 
 
 def _slides(state: State, _: str) -> bool:
@@ -234,7 +235,7 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
         _even("contact.sliding_angle", "direction of sliding", *_ANGLE, when=_slides),
         *(
             _even(
-                f"contact.spin_{number}", f"spin of body {number}", "rpm;rad/s", _SPINS, _is_point
+                f"contact.spin_{number}", f"spin of body {number}", "rpm;rad/s", _SPINS, _may_spin
             )
             for number in (1, 2)
         ),

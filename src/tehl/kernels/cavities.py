@@ -46,21 +46,28 @@ def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array, ends:
 def _mark_curved(film: Film, stencil: Stencil, rhs: Array, scratch: Array, ends: IntArray) -> None:
     """Mark the partly filled nodes where the surfaces spin, and fill them."""
     partial, p, (ny, nx) = film.partial, film.p, film.p.shape
+    first, last = _inner_rows(ny, stencil.mirror)
     for j in range(ny):
         for i in range(nx):
             full = film.rho[j, i] * film.h[j, i]
-            if j == 0 or j == ny - 1 or i == 0 or i == nx - 1:
+            if j < first or j > last or i == 0 or i == nx - 1:
                 partial[j, i] = film.layer[j] < full
                 film.held[j, i] = min(film.layer[j], full)
             elif i < ends[j]:
                 partial[j, i] = p[j, i] == 0.0
     fill(film, stencil)
-    for j in range(1, ny - 1):
+    for j in range(first, last + 1):
         line_operator(film, stencil, j, scratch, (j, ends[j]))
-    for j in range(1, ny - 1):
+    for j in range(first, last + 1):
         for i in range(1, ends[j]):
             partial[j, i] = p[j, i] == 0.0 and rhs[j, i] - scratch[j, i] >= 0.0
     fill(film, stencil)
+
+
+@helper
+def _inner_rows(ny: int, mirror: int) -> tuple[int, int]:
+    """Return the first and last row that is on no edge: closed ends are none."""
+    return 0 if mirror else 1, inner_end(ny, mirror) - 1
 
 
 @helper
@@ -72,13 +79,14 @@ def fill(film: Film, stencil: Stencil) -> None:
     other, so that a second time brings what has come from there.
     """
     (ny, nx), rate = film.p.shape, stencil.w0 - stencil.w2
+    first, last = _inner_rows(ny, stencil.mirror)
     for back in (False, True, False, True):
         for column in range(1, nx - 1):
             i = nx - 1 - column if back else column
-            v = film.drift[i]
-            for row in range(1, ny - 1):
-                j = row if v > 0.0 else ny - 1 - row
-                u = film.speed[j]
+            is_northward = film.drift[ny // 2, i] > 0.0
+            for row in range(first, last + 1):
+                j = row if is_northward else ny - 1 - row
+                u, v = film.speed[j], film.drift[j, i]
                 if not film.partial[j, i] or (u < 0.0) != back:
                     continue
                 along, across = (0, 1 if back else -1), (-1 if v > 0.0 else 1, 0)
@@ -92,12 +100,14 @@ def fill(film: Film, stencil: Stencil) -> None:
 
 
 @helper
-def _begins(film: Film, j: int, i: int) -> bool:
+def _begins(film: Film, mirror: int, j: int, i: int) -> bool:
     """Return whether a film may begin at a node: beside a partly filled one that is upstream."""
     partial = film.partial
     found = partial[j, i - 1] > 0
     if film.speed.shape[0] > 0:
-        found = found or partial[j, i + 1] + partial[j - 1, i] + partial[j + 1, i] > 0
+        ny = partial.shape[0]
+        south, north = row_below(j, ny, mirror), row_above(j, ny, mirror)
+        found = found or partial[j, i + 1] + partial[south, i] + partial[north, i] > 0
     return found
 
 
@@ -115,7 +125,7 @@ def keep_to_fronts(film: Film, mirror: int, width: int, frozen: FlagArray, ends:
             frozen[j, i] = 1
     for j in range(0 if mirror else 1, inner_end(ny, mirror)):
         for i in range(1, nx - 1):
-            if partial[j, i] > 0 or not _begins(film, j, i):
+            if partial[j, i] > 0 or not _begins(film, mirror, j, i):
                 continue
             end = min(i + width + 1, nx - 1)
             for row in range(max(j - width, 0), min(j + width + 1, ny)):
@@ -210,24 +220,25 @@ def _straight_oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array)
 def _curved_oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -> None:
     """Write the same where the surfaces spin."""
     (ny, nx), rate = film.p.shape, stencil.w0 - stencil.w2
+    first, last = _inner_rows(ny, stencil.mirror)
     for j in range(ny):
         u = film.speed[j]
         for i in range(nx):
             full = film.rho[j, i] * film.h[j, i]
             held[j, i] = film.held[j, i] if film.partial[j, i] else full
             after = i + 1 if u > 0.0 else i - 1
-            inside = 0 < j < ny - 1 and 0 < i < nx - 1
+            inside = first <= j <= last and 0 < i < nx - 1
             if inside and film.partial[j, i] and not film.partial[j, after]:
                 comes_back = flow_from(film, stencil, j, i, after - i)
-                held[j, i] += comes_back / (rate * (abs(u) + abs(film.drift[i])))
-    for j in range(1, ny - 1):
+                held[j, i] += comes_back / (rate * (abs(u) + abs(film.drift[j, i])))
+    for j in range(first, last + 1):
         u = film.speed[j]
         for i in range(nx - 1):
             from_, way = (i, (0, -1)) if u > 0.0 else (i + 1, (0, 1))
             moved = abs(u) * passed_on(film, stencil, (j, from_), way, False) / rate
             pressed = flow_from(film, stencil, j, i, 1) / rate
             if film.partial[j, from_] and not film.partial[j, 2 * i + 1 - from_]:
-                pressed *= 1.0 - abs(u) / (abs(u) + abs(film.drift[from_]))
+                pressed *= 1.0 - abs(u) / (abs(u) + abs(film.drift[j, from_]))
             passed[j, i] = (moved if u > 0.0 else -moved) - pressed
 
 

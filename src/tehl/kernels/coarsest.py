@@ -218,7 +218,7 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
     _clear_slopes(work)
     here, curved = near[HERE], state.lines.speed.shape[0] > 0
     upstream = (
-        EAST if curved and state.lines.speed[here // state.lines.drift.shape[0]] < 0.0 else WEST
+        EAST if curved and state.lines.speed[here // state.lines.drift.shape[1]] < 0.0 else WEST
     )
     for n in range(EAST, FAR):
         there = near[n]
@@ -250,10 +250,10 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
 @helper
 def _add_curved(state: Coarse, stencil: Stencil, work: Work) -> None:
     """Subtract the derivatives of the wedge where the surfaces spin, of second order at most."""
-    near, nx, ny = work.near, state.lines.drift.shape[0], state.lines.speed.shape[0]
+    near, (ny, nx) = work.near, state.lines.drift.shape
     here = near[HERE]
     j, i = here // nx, here % nx
-    u, v = state.lines.speed[j], state.lines.drift[i]
+    u, v = state.lines.speed[j], state.lines.drift[j, i]
     along, across = -1 if u > 0.0 else 1, -1 if v > 0.0 else 1
     near[FAR] = here + 2 * along if 0 <= i + 2 * along < nx else here
     near[ASIDE] = here + 2 * across * nx if 0 <= j + 2 * across < ny else here

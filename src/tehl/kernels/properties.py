@@ -47,7 +47,7 @@ class Film(NamedTuple):
     is H.
 
     Where the surfaces spin, ``speed`` (ny,) is the mean speed along x of each row over that at the
-    centre, and ``drift`` (nx,) that along y of each column, times dx/(kappa dy): with it the
+    centre, and ``drift`` (ny, nx) that along y, times dx over the distance of the rows: with it the
     differences along y have the weights of those along x. Without spin they have no elements.
 
     Where lines crowd at the ends of a roller, ``south`` and ``north`` (ny,) are the weights of the
@@ -72,7 +72,7 @@ class Film(NamedTuple):
     across: Array = np.zeros((0, 0))
     carried: Array = np.zeros((0, 0))
     speed: Array = np.zeros(0)
-    drift: Array = np.zeros(0)
+    drift: Array = np.zeros((0, 0))
     south: Array = np.zeros(0)
     north: Array = np.zeros(0)
 

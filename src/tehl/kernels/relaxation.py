@@ -286,7 +286,7 @@ def _load_curved(
         _load_node(film, stencil, relaxation, (j, inside), (at, lane), rows)
         if back:
             _load_reversed(film, stencil, relaxation, (j, i), (at, lane))
-        drift = abs(film.drift[i])
+        drift = abs(film.drift[j, i])
         cells[at, ACROSS, lane] += drift * stencil.w0 * cells[at, MASS_P, lane]
         first = k == 1
         w0 = stencil.w0 - stencil.w2 if first else stencil.w0
@@ -738,6 +738,6 @@ def relax_points(film: Film, stencil: Stencil, rhs: Array, self_film: Array, ome
             slope -= stencil.w0 * rho[j, i] * self_film[0]
             slope -= stencil.w1 * rho[j, i - 1] * self_film[1]
             if film.speed.shape[0] > 0:
-                slope -= stencil.w0 * abs(film.drift[i]) * rho[j, i] * self_film[0]
+                slope -= stencil.w0 * abs(film.drift[j, i]) * rho[j, i] * self_film[0]
             p[j, i] = max(p[j, i] + omega * (rhs[j, i] - flow + wedge) / slope, 0.0)
     join_ends(p, stencil.mirror)

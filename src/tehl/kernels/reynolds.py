@@ -143,7 +143,7 @@ def _subtract_wedge(
 @helper
 def curved_wedge(film: Film, stencil: Stencil, j: int, i: int) -> float:
     """Return the wedge at a node where the surfaces spin."""
-    u, v = film.speed[j], film.drift[i]
+    u, v = film.speed[j], film.drift[j, i]
     found = abs(u) * _difference(film, stencil, (j, i), (0, -1 if u > 0.0 else 1))
     return found + abs(v) * _difference(film, stencil, (j, i), (-1 if v > 0.0 else 1, 0))
 
@@ -157,7 +157,7 @@ def _difference(film: Film, stencil: Stencil, node: tuple[int, int], way: tuple[
     rho, h, (ny, nx), (j, i), (dj, di) = film.rho, film.h, film.p.shape, node, way
     here, west = rho[j, i] * h[j, i], rho[j + dj, i + di] * h[j + dj, i + di]
     far_j, far_i, curved = j + 2 * dj, i + 2 * di, 0.0
-    if stencil.third > 0.0:
+    if stencil.third > 0.0 and 0 <= j - dj < ny:  # at closed ends nothing is downstream
         after = rho[j - dj, i - di] * h[j - dj, i - di]
         curved = third_beyond(stencil, i, di) * (after - 2.0 * here + west)
     if far_j < 0 or far_j >= ny or far_i < 0 or far_i >= nx:
@@ -303,7 +303,7 @@ def _node_diagonal(film: Film, stencil: Stencil, self_film: float, j: int, i: in
     across += half_s * both_y(film, stencil, eps_y, (j, i), south)
     flow = 0.5 * stencil.cx * along + across
     if film.speed.shape[0] > 0:
-        w0 = stencil.w0 * (abs(film.speed[j]) + abs(film.drift[i]))
+        w0 = stencil.w0 * (abs(film.speed[j]) + abs(film.drift[j, i]))
         return flow + w0 * (film.drho[j, i] * film.h[j, i] + film.rho[j, i] * self_film)
     return flow + stencil.w0 * (film.drho[j, i] * film.h[j, i] + film.rho[j, i] * self_film)
 

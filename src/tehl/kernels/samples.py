@@ -79,7 +79,7 @@ def _axes(count: int, *names: str) -> dict[str, int]:
 
 
 def _sample(kernel: Callable[..., Any], seconds: float, **arrays: Any) -> Sample:
-    lines = _axes(1, "layer", "ends", "speed", "drift", "south", "north")
+    lines = _axes(1, "layer", "ends", "speed", "south", "north")
     return Sample(kernel, seconds, lines | arrays)
 
 

@@ -21,12 +21,12 @@ def subtract_curved_flux(
     (row, end), u = place, film.speed[j]
     back = -1 if u > 0.0 else 1
     for i in range(1, end):
-        v = film.drift[i]
+        v = film.drift[j, i]
         wedge = abs(u) * _flux_difference(film, stencil, (j, i), (0, back))
         wedge += abs(v) * _flux_difference(film, stencil, (j, i), (-1 if v > 0.0 else 1, 0))
         out[row, i] -= wedge
         if film.partial[j, i + back] and not film.partial[j, i]:
-            part = abs(u) / (abs(u) + abs(film.drift[i + back]))
+            part = abs(u) / (abs(u) + abs(film.drift[j, i + back]))
             out[row, i] += part * flow_from(film, stencil, j, i + back, -back)
 
 
@@ -60,7 +60,7 @@ def passed_on(
         ahead = 1 if film.speed[j] > 0.0 else -1
         if di == 0 and 0 < i < nx - 1 and not film.partial[j, i + ahead]:
             # of what the film behind along x brings, the rest comes back to that film
-            size = abs(film.speed[j]) + abs(film.drift[i])
+            size = abs(film.speed[j]) + abs(film.drift[j, i])
             found += flow_from(film, stencil, j, i, ahead) / size
         return found
     mass, after = film.rho[j, i] * film.h[j, i], (j - dj, i - di)
@@ -72,7 +72,8 @@ def passed_on(
         return rate * mass
     west = film.rho[j + dj, i + di] * film.h[j + dj, i + di]
     found = rate * (1.5 * mass - 0.5 * west)
-    if film.second[j, i] == MARK_THIRD_ORDER and not (film.partial[after] or film.partial[j, i]):
+    is_third = film.second[j, i] == MARK_THIRD_ORDER and 0 <= after[0] < ny  # none beyond ends
+    if is_third and not (film.partial[after] or film.partial[j, i]):
         east = film.rho[after] * film.h[after]
         found += third_beyond(stencil, i, di) * (east - 2.0 * mass + west)
     return found

@@ -163,7 +163,9 @@ def _solve(to_last: Array, diagonal: Array, to_next: Array, source: Array, wet: 
     return f
 
 
-def far_field(grid: Grid, groups: Groups, speed: float = 1.0) -> "Edges":
+def far_field(
+    grid: Grid, groups: Groups, speed: float = 1.0, slower: Array | float = 0.0
+) -> "Edges":
     """Return the pressure on the edges of a grid and the load outside of it.
 
     Parameters
@@ -174,14 +176,19 @@ def far_field(grid: Grid, groups: Groups, speed: float = 1.0) -> "Edges":
         Shape, and lambda of the oil that enters.
     speed : float
         Entrainment speed over that of the contact [-].
+    slower : Array or float
+        What spin takes from it on each row: oil outside of an ellipse does not depend on that
+        (docs/theory/directions.md).
     """
     if speed < 0.0:
         domain = grid.domain
         x, y = ((-high, -low) for low, high in (domain.x, domain.y))
         turned = replace(grid, domain=domain.model_copy(update={"x": x, "y": y}))
-        return Turned(far_field(turned, groups, -speed), 1 if grid.mirror else -1)
-    groups = replace(groups, lambda_bar=speed * groups.lambda_bar)
-    return UpstreamField(grid, groups) if groups.shape.as_line else FarField(grid, groups)
+        forwards = far_field(turned, groups, -speed, -np.flip(slower))
+        return Turned(forwards, 1 if grid.mirror else -1)
+    if groups.shape.as_line:
+        return UpstreamField(grid, groups, speed - slower)
+    return FarField(grid, replace(groups, lambda_bar=speed * groups.lambda_bar))
 
 
 class Turned:

@@ -179,14 +179,13 @@ def _third_difference(
 ) -> csr_matrix:
     """Return what makes the wedge one of third order: differences of t (m(i+1) - 2 m(i) + m(i-1)).
 
-    ``t`` is the weight at the face downstream of node i; the first face of a line has none.
+    ``t`` is the weight at the face downstream of node i; the first face of a line has none, nor has
+    the last one of a column, beyond a closed end.
     """
     dj, di = way
     weight = np.full(grid.shape, stencil.third)
     weight[:, slice(stencil.fore + 1) if di > 0 else slice(stencil.fore, None)] *= 0.5
-    weight[
-        (0 if dj < 0 else -1) if dj else slice(None), (0 if di < 0 else -1) if di else slice(None)
-    ] = 0.0
+    weight[[0, -1] if dj else slice(None), (0 if di < 0 else -1) if di else slice(None)] = 0.0
     every = np.ones(grid.shape, bool)
     here, west = neighbour(grid, every, 0, 0), neighbour(grid, every, dj, di)
     bent = rows(weight.ravel()) @ (neighbour(grid, every, -dj, -di) - 2.0 * here + west)

@@ -12,7 +12,7 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
-from tehl.estimate.spin import spin_number
+from tehl.estimate.spin import slowing, spin_number
 from tehl.kernels.faces import CLOSED, IN_TIME, MARK_THIRD_ORDER, STEADILY, WRAPPED, Stencil
 from tehl.kernels.properties import Film
 from tehl.kernels.reynolds import operator
@@ -22,6 +22,8 @@ UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
 """Weights of rho H of a node and of its upstream neighbours in the wedge, by its order [1/dx]."""
 NODE_ROUNDING = 1e-9
 """Rounding of a number of mesh widths."""
+NO_DRIFT = 1e-300
+"""Drift that is as good as none, but has a sign: rows upstream of it exist."""
 CUBIC = (-1, 0, 1, 2)
 """Nodes of the cubic interpolation, upstream of the node before the place."""
 INFLUENCE_NODES = 8
@@ -87,7 +89,7 @@ class Entrainment(NamedTuple):
     drift: Array
 
 
-ALONG_X = Entrainment(np.zeros(0), np.zeros(0))
+ALONG_X = Entrainment(np.zeros(0), np.zeros((0, 0)))
 """That of surfaces that do not spin; and in a time step, which follows the oil."""
 
 
@@ -95,18 +97,22 @@ def entrainment(grid: Grid, scaled: ScaledProblem) -> Entrainment:
     """Return the mean speeds of surfaces that spin; without elements if they do not.
 
     With the spin S = omega a_x/u_m of the mean motion and the speed u_0 of the moment they are
-    u = u_0 - S kappa Y along x and v = S X along y.
+    u = u_0 - S kappa Y along x and v = S X along y, with no difference where it enters at an end.
 
     Parameters
     ----------
     grid, scaled : Grid, ScaledProblem
         Nodes, and the contact with its motion.
     """
-    spin, stretch = spin_number(scaled), scaled.groups.ellipticity
-    if spin == 0.0:
+    if (spin := spin_number(scaled)) == 0.0:
         return ALONG_X
-    across = grid.dx / (stretch * grid.dy)
-    return Entrainment(scaled.moment.speed - spin * stretch * grid.y, spin * across * grid.x)
+    across = grid.dx / (scaled.groups.ellipticity * grid.dy)
+    close = grid.dy / np.gradient(grid.y) if grid.crowding else np.ones(grid.shape[0])
+    drift = spin * across * close[:, None] * grid.x
+    if grid.is_closed:
+        drift[0] = np.minimum(drift[0], -NO_DRIFT)
+        drift[-1] = np.maximum(drift[-1], NO_DRIFT)
+    return Entrainment(scaled.moment.speed - slowing(scaled, grid.y), drift)
 
 
 def conductance(stencil: Stencil, here: Array, there: Array) -> Array:

@@ -213,8 +213,9 @@ class Solids:
             [side.line_factor(scales, flux_unit) if side.marches else 0.0 for side in both],
         )
         x, y = grid.x[:: self.stride], (groups.ellipticity * grid.y if grid.ny > 1 else grid.y)
-        self.slowness = [side.slowness(y) for side in both]
         places = np.linspace(y[0], y[-1], shape[0]) if self.between else y[:: self.stride]
+        self.slowness = [side.slowness(y) for side in both]
+        self.slowness_of_sources = [side.slowness(places) for side in both]
         self.streams = [
             _streams(x, places, side, factor, full=source is not None)
             for side, factor, source in zip(both, self.factors, self.sources, strict=True)
@@ -308,7 +309,7 @@ class Solids:
         if not streams:
             return np.zeros_like(flux)
         turned, *straight = (stream.rise(flux.T) for stream in streams)
-        slow = self.slowness[number][:: self.stride]
+        slow = self.slowness_of_sources[number]
         if straight:  # the line along x is part of the full source
             turned, slow = turned - straight[0], slow - 1.0
         marched = self.factors[number] * slow * line_rise(flux.T, spacing)
@@ -348,7 +349,7 @@ class Solids:
 
     def _marched(self, number: int, flux: Array) -> Array:
         """Return the rise of a surface by the line that the sweep carries along, y first [K]."""
-        factor, slow = self.factors[number], self.slowness[number][:: self.stride]
+        factor, slow = self.factors[number], self.slowness_of_sources[number]
         spacing = self.stride * self.spacing
         return np.asarray(factor * slow * line_rise(flux.T, spacing)).T if factor else 0.0 * flux
 

@@ -12,7 +12,6 @@ from the pressure at ambient viscosity, P_0, which falls as t^3: it is 1/(1 - al
 the oil is cavitated.
 """
 
-from dataclasses import replace
 from functools import cache
 from typing import NamedTuple
 
@@ -38,12 +37,16 @@ class Beyond(NamedTuple):
 
 
 class Lines(NamedTuple):
-    """X of the nodes, (nx,), P and H there, (ny, nx), and what each line stands for, (ny,) [-]."""
+    """X of the nodes, (nx,), P and H there, (ny, nx), and what each line stands for, (ny,) [-].
+
+    ``slower`` (ny,): what spin takes from the speed of each line, over that of the contact.
+    """
 
     x: Array
     pressure: Array
     film: Array
     widths: Array
+    slower: Array | float = 0.0
 
 
 class EdgeSlopes(NamedTuple):
@@ -61,7 +64,15 @@ class EdgeSlopes(NamedTuple):
     load_by_flux: Array
 
 
-def beyond(edge: float, film: Array, flux: Array, groups: Groups, curvature: float = 1.0) -> Beyond:
+def beyond(
+    edge: float,
+    film: Array,
+    flux: Array,
+    groups: Groups,
+    *,
+    speed: Array,
+    curvature: float = 1.0,
+) -> Beyond:
     """Return what the oil upstream of an edge does.
 
     Parameters
@@ -72,13 +83,15 @@ def beyond(edge: float, film: Array, flux: Array, groups: Groups, curvature: flo
         Of each line H there, and rho H where the pressure is largest [-].
     groups : Groups
         lambda and alpha p_h of the oil that enters.
+    speed : (n,) array
+        Of each line towards the contact, over that of ``groups`` [-].
     curvature : float
         1/R_x over that of the contact [-].
     """
     t, weight = _gauss()
     x = edge / t
     h = gap_beyond(edge, film[:, None], t, curvature)
-    slope = groups.lambda_bar * weight * (h - flux[:, None]) / h**3  # P' |dX|
+    slope = groups.lambda_bar * speed[:, None] * weight * (h - flux[:, None]) / h**3  # P' |dX|
     slope *= -edge / t**2
     thicker = np.minimum(groups.alpha_bar * slope.sum(axis=1), MOST_THICKENING)
     slope /= 1.0 - thicker[:, None] * t**3
@@ -132,15 +145,26 @@ def rolling(
     x, pressure, film = sign * lines.x[way], lines.pressure[:, way], lines.film[:, way]
     tail = 0.0
     if oil is not None and moment.speed != 0.0:
-        slower = replace(groups, lambda_bar=abs(moment.speed) * groups.lambda_bar)
-        flux = np.minimum(oil, film[:, 0])
-        upstream = beyond(float(x[0]), film[:, 0], flux, slower, moment.curvature)
+        speed = incoming(sign * (moment.speed - lines.slower), film.shape[0])
+        flux, curvature = np.minimum(oil, film[:, 0]), moment.curvature
+        upstream = beyond(float(x[0]), film[:, 0], flux, groups, speed=speed, curvature=curvature)
         tail = float(upstream.rolling @ widths)
     flow = np.sum(0.5 * (film[:, 1:] + film[:, :-1]) * np.diff(pressure), axis=1)
     centre = -moment.curvature * np.trapezoid(x * pressure, x)
     on_grid = float((flow + film[:, 0] * pressure[:, 0]) @ widths)
     found = float(flow @ widths) + tail
     return sign * found, float(centre @ widths) / on_grid if on_grid else 1.0, sign * tail
+
+
+def incoming(speed: Array | float, lines: int) -> Array:
+    """Return the speed of each of some lines towards the contact, zero where oil leaves, (n,) [-].
+
+    Parameters
+    ----------
+    speed, lines : Array or float, int
+        Of all of them or of each, and their number.
+    """
+    return np.maximum(np.broadcast_to(speed, (lines,)), 0.0)
 
 
 @cache
@@ -159,10 +183,13 @@ class UpstreamField:
         Its inlet edge.
     groups : Groups
         Lambda of the oil that enters.
+    speed : Array or float
+        Of each line over that of the contact [-].
     """
 
-    def __init__(self, grid: Grid, groups: Groups) -> None:
+    def __init__(self, grid: Grid, groups: Groups, speed: Array | float) -> None:
         self.edge, self.groups = grid.domain.x[0], groups
+        self.speed = incoming(speed, grid.shape[0])
         self.middle = int(np.argmin(np.abs(grid.x)))
         self.widths = grid.widths
 
@@ -204,11 +231,13 @@ class UpstreamField:
         inlet = film[:, 0]
         flux, step = np.minimum(film[:, self.middle], inlet), 1e-4 * inlet
         higher, lower = (
-            beyond(self.edge, inlet + change, flux, self.groups) for change in (step, -step)
+            beyond(self.edge, inlet + change, flux, self.groups, speed=self.speed)
+            for change in (step, -step)
         )
         t, weight = _gauss()
         x, h = self.edge / t, gap_beyond(self.edge, inlet[:, None], t)
-        per_flux = self.groups.lambda_bar * self.edge / t**2 * weight / h**3
+        fastest = self.groups.lambda_bar * self.speed[:, None]
+        per_flux = fastest * self.edge / t**2 * weight / h**3
         by_flux, load_by_flux, load_by_rate = (
             (per_flux * (self.edge - x) ** power).sum(axis=1) for power in range(3)
         )
@@ -227,4 +256,4 @@ class UpstreamField:
     def _beyond(self, film: Array) -> Beyond:
         inlet = np.maximum(film[:, 0], 0.5 * self.edge**2 * 1e-3)
         flux = np.minimum(np.maximum(film[:, self.middle], 0.0), inlet)
-        return beyond(self.edge, inlet, flux, self.groups)
+        return beyond(self.edge, inlet, flux, self.groups, speed=self.speed)

@@ -11,6 +11,7 @@ import numpy as np
 
 from tehl.contact.options import Domain
 from tehl.estimate.grid import Grid
+from tehl.estimate.spin import slowing
 from tehl.operators.upstream import Lines, rolling
 from tehl.post.stress.loads import whole_pressure
 from tehl.post.traction import cell_widths
@@ -54,7 +55,8 @@ def rolling_friction(result: Solution) -> Rolling | None:
         largest = np.take_along_axis(result.pressure, peaks, axis=1)
         density = problem.lubricant.density.density(largest, scales.temperature) / scales.density
         oil = (density * np.take_along_axis(here.film, peaks, axis=1))[:, 0]
-    lines = Lines(here.x, here.pressure, here.film, widths)
+    slower = slowing(scaled, here.y)
+    lines = Lines(here.x, here.pressure, here.film, widths, slower)
     flow, ratio, tail = rolling(lines, oil, scaled.entering, scaled.moment)
     force = 0.5 * flow * scales.hertz_pressure * scales.film_thickness * scales.half_width_y
     area = scales.half_width_x**2 * scales.half_width_y

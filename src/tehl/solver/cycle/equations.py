@@ -18,7 +18,7 @@ from tehl.contact.moment import Moment
 from tehl.contact.options import Options
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
-from tehl.estimate.spin import spin_number
+from tehl.estimate.spin import slowing, spin_number
 from tehl.estimate.starvation import EnteringOil, entering_oil, supplied_film
 from tehl.kernels.faces import Stencil
 from tehl.operators.deformation import Deformation, choose
@@ -130,7 +130,7 @@ class Equations:
             return replace(self, balances=balances)
         outside = self.outside
         if outside.far_field is not None:
-            far = far_field(self.grid, scaled.entering, moment.speed)
+            far = far_field(self.grid, scaled.entering, moment.speed, slowing(scaled, self.grid.y))
             outside = outside._replace(far_field=far)
         return replace(
             self,
@@ -163,7 +163,7 @@ class Equations:
         conserves = scaled.problem.conserves_oil
         film, far, spins = scaled.problem.contact_film, None, spin_number(scaled) != 0.0
         if options.has_far_field and oil is None:
-            far = far_field(grid, scaled.entering, moment.speed)
+            far = far_field(grid, scaled.entering, moment.speed, slowing(scaled, grid.y))
         modes, moments = rigid_motions(grid, groups)
         return cls(
             grid=grid,

@@ -8,7 +8,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.spin import sliding_field
+from tehl.estimate.spin import sliding_field, slowing
 from tehl.operators.dry import dry_pressure
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import stress_unit
@@ -166,7 +166,7 @@ def rolling_integral(level: Level, scaled: ScaledProblem) -> tuple[float, float]
     peaks, oil = film.p.argmax(axis=1)[:, None], None
     if scaled.problem.supply is None or film.partial[0, 0] == 0:  # it reaches further upstream
         oil = np.take_along_axis(film.rho * film.h, peaks, axis=1)[:, 0]
-    lines = Lines(grid.x, film.p, film.h, grid.widths)
+    lines = Lines(grid.x, film.p, film.h, grid.widths, slowing(scaled, grid.y))
     found, _, tail = rolling(lines, oil, scaled.entering, scaled.moment)
     return found, tail
 
