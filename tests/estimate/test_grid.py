@@ -125,6 +125,13 @@ def test_lines_crowd_where_the_loaded_part_of_a_roller_ends():
         assert near.min() < 0.2 * steps.max()
     outside = (y > 0.5).sum() / ((y > -0.4) & (y < 0.5)).sum()  # most lines are where load is
     assert outside < 0.6
-    even = replace(lines, edges=(1.0, 1.0))
-    s = np.linspace(-1.0, 1.0, 257)
-    np.testing.assert_allclose(even.y, np.tanh(c * s) / np.tanh(c), atol=1e-12)
+    even, s = replace(lines, edges=(1.0, 1.0)), np.linspace(-1.0, 1.0, 257)
+    width = 1.0 / np.tanh(c) - 1.0
+    number = np.arcsinh((1.0 + even.y) / width) - np.arcsinh((1.0 - even.y) / width)
+    np.testing.assert_allclose(number, np.arcsinh(2.0 / width) * s, atol=1e-9)
+    for found in (lines, even):  # distances hardly change where the film is thinnest
+        steps, places = np.diff(found.y), 0.5 * (found.y[1:] + found.y[:-1])
+        inside = found.edges[1] - places
+        near = steps[(inside > 0.0) & (inside < 0.5 * width)]
+        assert near.size > 3
+        assert near.max() < 1.2 * near.min()

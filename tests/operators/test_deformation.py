@@ -227,7 +227,8 @@ def test_lines_that_crowd_at_the_ends_of_a_roller_are_bent_as_even_ones(mirror):
 def test_near_lines_alone_are_summed_at_most_wave_numbers(mirror):
     edges = (0.95, 0.95) if mirror else (0.9, 0.97)
     ends, numbers = Domain.model_construct(x=(-3.0, 1.5), y=(-1.0, 1.0)), contact_groups(25.0)
-    grid = Grid(nx=65, ny=129, domain=ends, mirror=mirror, crowding=3.0, edges=edges)
+    # far lines are sampled at each second and fourth offset
+    grid = Grid(nx=257, ny=65, domain=ends, mirror=mirror, crowding=3.0, edges=edges)
     pressure, found = np.random.default_rng(1).random(grid.shape), np.empty(grid.shape)
     pressure[:, [0, -1]] = 0.0
     deformation = CrowdedDeformation(grid, numbers)
@@ -237,7 +238,7 @@ def test_near_lines_alone_are_summed_at_most_wave_numbers(mirror):
     expected = [
         sum(line[offsets] @ p for line, p in zip(to, pressure, strict=True)) for to in lines
     ]
-    np.testing.assert_allclose(found, expected, rtol=1e-12)
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12 * np.max(expected))
     kept = sum(block.influences.size for block in deformation.blocks)
     assert kept < 0.8 * grid.nx * grid.shape[0] ** 2
 

@@ -8,6 +8,7 @@ moments.
 """
 
 import math
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -21,9 +22,15 @@ from tehl.operators.influence import influence_of, reciprocal
 
 DECAY = 40.0
 """k s from which a wave number k of the pressure of one line does not bend another: deflections err
-by 4e-13, by 5e-12 with 30, which takes a tenth less memory."""
+by 4e-13, by 5e-12 with 30, which takes a tenth less memory; with samples by up to 7e-12."""
 LINES, WAVES, GROWTH = 16, 8, 1.25
 """Lines of a block; its least wave numbers, and those of a block over those of the one before."""
+LEAST_SAMPLES = 32
+"""Least intervals of the samples along x: what is left of the kink decays as k^-8."""
+AT_ONCE = 4
+"""Lines whose influences are computed together: with more they take more memory than is kept."""
+POWERS = np.array([2, 4, 6])
+"""Of the polynomials."""
 
 
 class Block(NamedTuple):
@@ -33,10 +40,6 @@ class Block(NamedTuple):
     to: slice
     of: slice
     influences: Array
-
-    def has(self, line: int) -> bool:
-        """Whether the block contains the influences of a line."""
-        return bool(self.of.start <= line < self.of.stop)
 
 
 class CrowdedDeformation:
@@ -52,27 +55,28 @@ class CrowdedDeformation:
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
         self.period = 2 * (grid.nx - 1)
-        self.polynomials = Polynomials(grid, groups)
         self.blocks = _blocks(grid, groups)
-        influence, offsets = influence_of(grid, groups), np.arange(grid.nx) / (grid.nx - 1)
-        powers = dct(offsets ** self.polynomials.powers[:, None], 1)
+        spectra = Spectra(grid, groups)
         # as by `reciprocal`
-        ends, rows = [-1] if grid.mirror else [0, -1], grid.shape[0]
+        ends, rows, widths = [-1] if grid.mirror else [0, -1], grid.shape[0], grid.widths
         own = np.full(rows, 0.5)
         own[ends] = 1.0
-        for line, width in enumerate(grid.widths):
-            others = 0.5 * width / grid.widths
-            others[ends] = 0.0
-            found = dct(influence.on_line(grid, line), 1)
-            found -= self.polynomials.on_lines[:, line].T @ powers
+        others = 0.5 * widths / widths[:, None]  # on a line, of another one
+        others[ends] = 0.0
+        for first in range(0, rows, LINES):
+            group = slice(first, min(first + LINES, rows))
+            found = spectra.on(group)
             for block in self.blocks:
-                if block.to.start <= line < block.to.stop:
-                    part = own[line] * found[block.of, block.waves]
-                    block.influences[:, line - block.to.start] += part.T
-                if block.has(line):
-                    part = others[block.to, None] * found[block.to, block.waves]
-                    block.influences[:, :, line - block.of.start] += part.T
-        self.polynomials.make_reciprocal(grid)
+                if block.to == group:
+                    part = own[group, None, None] * found[:, block.of, block.waves]
+                    block.influences[:] += part.transpose(2, 0, 1)
+                low, high = max(block.of.start, group.start), min(block.of.stop, group.stop)
+                if low < high:
+                    part = found[low - first : high - first, block.to, block.waves]
+                    part = others[block.to, low:high].T[:, :, None] * part
+                    of = slice(low - block.of.start, high - block.of.start)
+                    block.influences[:, :, of] += part.transpose(2, 1, 0)
+        self.polynomials = Polynomials(grid, spectra.on_lines)
 
     def deflect(self, pressure: Array, out: Array) -> None:
         """Write the deflection under ``pressure`` to ``out``."""
@@ -105,8 +109,11 @@ def _blocks(grid: Grid, groups: Groups) -> list[Block]:
     return found
 
 
-class Polynomials:
-    """Even polynomials in x in place of the influence of each line on each other one.
+class Spectra:
+    """Transforms along x of the influences of lines on each other, less their polynomials.
+
+    That of lines at a distance s is smooth along x: it is sampled at offsets up to pi s/`DECAY`
+    apart, where the waves that samples do not tell apart have decayed.
 
     Parameters
     ----------
@@ -115,20 +122,81 @@ class Polynomials:
     """
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
-        self.powers, degree = np.array([2, 4, 6]), 6
-        self.on_lines = np.tensordot(_powers_of(self.powers), _derivatives(grid, groups), 1)
+        self.grid, self.influence = grid, influence_of(grid, groups)
+        self.y, self.faces = groups.ellipticity * grid.y, groups.ellipticity * grid.faces
+        self.images = grid.shape[0] - 1 if grid.mirror else 0
+        if grid.mirror:
+            self.faces = np.append(-self.faces[:1:-1], self.faces)
+        most = (grid.nx - 1) // LEAST_SAMPLES
+        strides = [1 << n for n in range(most.bit_length()) if (grid.nx - 1) % (1 << n) == 0]
+        self.strides = strides or [1]
+        derivatives = _derivatives(grid, groups, self.y, self.faces)
+        self.of_images = np.tensordot(_powers_of(POWERS), derivatives, 1)
         """Coefficients of the powers of the offset over the largest one, (powers, to, from)."""
+
+    @property
+    def on_lines(self) -> Array:
+        """Those of stored lines with their images, whose work on each other is the same."""
+        found = self.of_images[:, :, self.images :].copy()
+        found[:, :, 1:] += self.of_images[:, :, self.images - 1 :: -1] if self.images else 0.0
+        return reciprocal(found, self.grid)
+
+    def on(self, group: slice) -> Array:
+        """Return the transforms of the influence of all lines on a group, (group, lines, waves)."""
+        grid, rows = self.grid, range(group.start, group.stop)
+        found = np.zeros((len(rows), grid.shape[0], grid.nx))
+        for first in rows[::AT_ONCE]:
+            some = slice(first, min(first + AT_ONCE, group.stop))
+            self._add(some, found[some.start - group.start : some.stop - group.start])
+        return found
+
+    def _add(self, group: slice, out: Array) -> None:
+        """Add those on a group of few lines to ``out``."""
+        grid, places = self.grid, self.y[group]
+        offsets = np.arange(grid.nx) / (grid.nx - 1)
+        for first, last, stride in self._runs(places[0], places[-1]):
+            cells = self.influence.on_lines(grid, places, self.faces[first : last + 1], stride)
+            coefficients = self.of_images[:, group, first:last].transpose(1, 2, 0)
+            cells -= coefficients @ offsets[::stride] ** POWERS[:, None]
+            spectrum = stride * dct(cells, 1)
+            waves = slice(spectrum.shape[2])
+            if first < self.images:
+                lines = slice(self.images - last + 1, self.images - first + 1)
+                out[:, lines, waves] += spectrum[:, ::-1]
+            else:
+                out[:, first - self.images : last - self.images, waves] += spectrum
+
+    def _runs(self, low: float, high: float) -> Iterator[tuple[int, int, int]]:
+        """Yield first and last line, images before others, and the stride of their samples."""
+        apart = np.maximum(np.maximum(self.faces[:-1] - high, low - self.faces[1:]), 0.0)
+        reaches = DECAY / math.pi * self.grid.dx * np.array(self.strides[1:])
+        numbers = np.searchsorted(reaches, apart, "right")
+        changes = np.flatnonzero(np.diff(numbers)) + 1
+        bounds = np.unique([0, self.images, apart.size, *changes])
+        for first, last in pairwise(bounds.tolist()):
+            yield first, last, self.strides[numbers[first]]
+
+
+class Polynomials:
+    """Even polynomials in x in place of the influence of each line on each other one.
+
+    Parameters
+    ----------
+    grid : Grid
+        The lines.
+    on_lines : Array
+        Coefficients of the powers of the offset over the largest one, (powers, to, from).
+    """
+
+    def __init__(self, grid: Grid, on_lines: Array) -> None:
+        self.on_lines, degree = on_lines, int(POWERS[-1])
         places = np.linspace(-0.5, 0.5, grid.nx)[:, None] ** np.arange(degree + 1)
         self.places = np.ascontiguousarray(places.T)
         # (x - x')^n by the powers of x' and of x
-        self.binomials = np.zeros((self.powers.size, degree + 1, degree + 1))
-        for number, power in enumerate(self.powers):
+        self.binomials = np.zeros((POWERS.size, degree + 1, degree + 1))
+        for number, power in enumerate(POWERS):
             for one in range(power + 1):
                 self.binomials[number, one, power - one] = (-1) ** one * math.comb(power, one)
-
-    def make_reciprocal(self, grid: Grid) -> None:
-        """Make the work of lines on each other the same both ways."""
-        self.on_lines = reciprocal(self.on_lines, grid)
 
     def deflection(self, pressure: Array) -> Array:
         """Return the deflection by the polynomials under a ``pressure``, of its shape."""
@@ -136,17 +204,14 @@ class Polynomials:
         return np.asarray(np.einsum("nja,nab->jb", moments, self.binomials) @ self.places)
 
 
-def _derivatives(grid: Grid, groups: Groups) -> Array:
+def _derivatives(grid: Grid, groups: Groups, places: Array, faces: Array) -> Array:
     """Return odd derivatives of the influence of lines at the largest offset, (n, to, from).
 
     By offsets over that one. Over a cell of width d the mean of f exceeds it by d^2/24 times its
     second and d^4/1920 times its fourth derivative.
     """
-    stretch = groups.ellipticity / ((grid.nx - 1) * grid.dx)
-    places, faces = stretch * grid.y[:, None], stretch * grid.faces
-    found = np.diff(_of_strip(faces - places))
-    if grid.mirror:
-        found[:, :, 1:] += np.diff(_of_strip(faces[1:] + places))
+    length = (grid.nx - 1) * grid.dx
+    found = np.diff(_of_strip((faces - places[:, None]) / length))
     square = 1.0 / (grid.nx - 1) ** 2
     found[0] += square / 24.0 * found[1] + square**2 / 1920.0 * found[2]
     found[1] += square / 24.0 * found[2]

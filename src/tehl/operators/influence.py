@@ -63,21 +63,38 @@ class Influence:
 
         Those of the ends have half a width; on half a domain with the mirror image.
         """
-        lines = np.array([self.on_line(grid, row) for row in range(grid.shape[0])])
+        places = self.dy / grid.dy * grid.y
+        lines = self.on_lines(grid, places, self.dy / grid.dy * grid.faces)
+        if grid.mirror:
+            lines[:, 1:] += self.on_lines(grid, -places, self.dy / grid.dy * grid.faces[1:])
         return np.ascontiguousarray(reciprocal(lines.transpose(2, 0, 1), grid).transpose(1, 2, 0))
 
-    def on_line(self, grid: Grid, row: int) -> Array:
-        """Return the influence of each line on one of lines that crowd, (from, column offset).
+    def on_lines(self, grid: Grid, places: Array, faces: Array, stride: int = 1) -> Array:
+        """Return the influence of cells on places at some of the offsets along x.
 
         Before `reciprocal`: at the node, wherever it lies in its cell.
+
+        Parameters
+        ----------
+        grid : Grid
+            Its columns.
+        places, faces : Array
+            y of the places, and of the faces between the cells [a_x].
+        stride : int
+            Distance of the offsets, from zero to the width of the grid [mesh widths].
+
+        Returns
+        -------
+        array (places, faces - 1, offsets)
         """
-        stretch = self.dy / grid.dy
-        u = self.dx * (np.arange(grid.nx + 1.0) - 0.5)
-        faces, place = stretch * grid.faces, stretch * grid.y[row]
-        found = self._of_cells(u, faces - place)
-        if grid.mirror:
-            found[1:] += self._of_cells(u, faces[1:] + place)
-        return found
+        v = (faces - places[:, None])[:, :, None]
+        if stride == 1:
+            corners = _corner(self.dx * (np.arange(grid.nx + 1.0) - 0.5), v)
+            cells: Array = np.diff(np.diff(corners, axis=2), axis=1)
+        else:
+            x = self.dx * np.arange(0.0, grid.nx, stride)
+            cells = np.diff(_corner(x + 0.5 * self.dx, v) - _corner(x - 0.5 * self.dx, v), axis=1)
+        return self.factor * cells
 
     def beside(self, grid: Grid, reach: int, columns: int) -> Array:
         """Return the influence of lines that crowd on those near them.
@@ -111,11 +128,6 @@ class Influence:
             )
             found[number, inside] = self.factor * np.diff(high - low, axis=1)
         return found
-
-    def _of_cells(self, u: Array, v: Array) -> Array:
-        """Return the influence of cells between the corners u and v."""
-        cells: Array = np.diff(np.diff(_corner(u, v[:, None]), axis=0), axis=1)
-        return self.factor * cells
 
 
 class LineInfluence(Influence):
@@ -223,7 +235,7 @@ def reciprocal(lines: Array, grid: Grid) -> Array:
     Parameters
     ----------
     lines : (n, rows, rows) array
-        Influence on each line of each other one (`Influence.on_line`), or parts of it.
+        Influence on each line of each other one (`Influence.on_lines`), or parts of it.
     grid : Grid
         With the widths of the lines.
     """
