@@ -192,6 +192,15 @@ def test_what_fails_for_a_larger_error_is_not_tried_for_a_smaller_one_on_the_sam
     working_hint(failed, fails, SILENT, math.inf)
     assert [error for error, _ in tried] == [0.5]
     assert tried[0][1] == pytest.approx(20.0, abs=0.1)  # no longer than the failed solve
+    # nor at all where that grid led to the film that is kept
+    tried.clear()
+    ended = failed.but(
+        status=replace(failed.status, cause="error_not_reached"),
+        history=[replace(failed.history[0], points=(257, 129))],
+    )
+    hint = working_hint(ended, fails, SILENT, math.inf, ((513, 257), 0.31))
+    assert not tried
+    assert hint.settings == {"numerics.error": "35 %"}
 
 
 def test_a_trial_ends_after_the_time_that_is_left(monkeypatch):

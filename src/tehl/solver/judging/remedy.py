@@ -188,10 +188,16 @@ def _default_domain(failed: Solution) -> Iterator[Trial]:
 
 
 def _errors(failed: Solution, least: float) -> Iterator[Trial]:
-    """Yield larger errors to reach, up to the one that was reached, ``least``."""
+    """Yield larger errors to reach, up to the one that was reached, ``least``.
+
+    From a grid that led to the reached one they would lead there again.
+    """
+    ended = failed.status.cause == "error_not_reached"
+    solved = {one.points for one in failed.history} if ended else set()
+    scaled = ScaledProblem.of(failed.problem)
     for error in ERRORS:
-        if failed.options.target < error < least:
-            options = failed.options.model_copy(update={"error": error})
+        options = failed.options.model_copy(update={"error": error})
+        if failed.options.target < error < least and planned(scaled, options).points not in solved:
             yield {"numerics.error": percentage(error)}, failed.problem, options
 
 
