@@ -28,6 +28,8 @@ _STATED_DELIMITER = re.compile(r'"?sep=(.)"?\s*', re.IGNORECASE)
 _UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
 LARGEST_LIST = 50_000_000
 """Bytes of a list."""
+_PACKAGES = {".xlsx": ("openpyxl", "xlsx"), ".parquet": ("pyarrow", "parquet")}
+"""Packages of formats, and the extras that install them."""
 
 
 class Doubtful(str):
@@ -43,10 +45,6 @@ class Doubtful(str):
             f"{self} has a point, but this list has decimal commas: "
             f"write {self.replace('.', '')}{fraction}"
         )
-
-
-_PACKAGES = {".xlsx": ("openpyxl", "xlsx"), ".parquet": ("pyarrow", "parquet")}
-"""Packages of formats, and the extras that install them."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,84 +15,7 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
-Dimension = tuple[int, int, int, int]
-"""Exponents of metre, kilogram, second, kelvin."""
-
-_NONE: Dimension = (0, 0, 0, 0)
-_MASS: Dimension = (0, 1, 0, 0)
-_FORCE: Dimension = (1, 1, -2, 0)
-_PRESSURE: Dimension = (-1, 1, -2, 0)
-_ENERGY: Dimension = (2, 1, -2, 0)
-_POWER: Dimension = (2, 1, -3, 0)
-
-_PREFIXES = {"n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "": 1.0, "k": 1e3, "M": 1e6}
-_PREFIXES["G"] = 1e9
-_PREFIXED: dict[str, tuple[float, Dimension]] = {
-    "m": (1.0, (1, 0, 0, 0)),
-    "g": (1e-3, (0, 1, 0, 0)),
-    "s": (1.0, (0, 0, 1, 0)),
-    "N": (1.0, _FORCE),
-    "Pa": (1.0, _PRESSURE),
-    "J": (1.0, _ENERGY),
-    "W": (1.0, _POWER),
-    "Hz": (1.0, (0, 0, -1, 0)),
-    "Pas": (1.0, (-1, 1, -1, 0)),
-    "Ns": (1.0, (1, 1, -1, 0)),
-    "Nm": (1.0, _ENERGY),
-    "l": (1e-3, (3, 0, 0, 0)),
-    "L": (1e-3, (3, 0, 0, 0)),
-}
-_UNITS: dict[str, tuple[float, Dimension]] = {
-    prefix + name: (scale * factor, dimension)
-    for name, (factor, dimension) in _PREFIXED.items()
-    for prefix, scale in _PREFIXES.items()
-} | {
-    "1": (1.0, _NONE),
-    "-": (1.0, _NONE),
-    "%": (0.01, _NONE),
-    "rad": (1.0, _NONE),
-    "mrad": (1e-3, _NONE),
-    "deg": (math.pi / 180.0, _NONE),
-    "°": (math.pi / 180.0, _NONE),
-    "arcmin": (math.pi / 10800.0, _NONE),
-    "K": (1.0, (0, 0, 0, 1)),
-    "degC": (1.0, (0, 0, 0, 1)),
-    "°C": (1.0, (0, 0, 0, 1)),
-    "cm": (1e-2, (1, 0, 0, 0)),
-    "dm": (1e-1, (1, 0, 0, 0)),
-    "mK": (1.0, (1, 0, 0, 1)),  # W/mK of data sheets is W/(m K)
-    "kgK": (1.0, (0, 1, 0, 1)),
-    "min": (60.0, (0, 0, 1, 0)),
-    "h": (3600.0, (0, 0, 1, 0)),
-    "bar": (1e5, _PRESSURE),
-    "cP": (1e-3, (-1, 1, -1, 0)),
-    "P": (0.1, (-1, 1, -1, 0)),
-    "cSt": (1e-6, (2, 0, -1, 0)),
-    "St": (1e-4, (2, 0, -1, 0)),
-}
-_POUND = 4.4482216152605
-"""Newtons of a pound-force, exactly."""
-_PSI = _POUND / 0.0254**2
-_UNITS |= {
-    **dict.fromkeys(("in", "inch"), (0.0254, (1, 0, 0, 0))),
-    **dict.fromkeys(("mil", "thou"), (2.54e-05, (1, 0, 0, 0))),
-    **dict.fromkeys(("uin", "µin", "μin", "microinch"), (2.54e-08, (1, 0, 0, 0))),
-    "ft": (0.3048, (1, 0, 0, 0)),
-    "lbf": (_POUND, _FORCE),
-    "lb": (_POUND / 9.80665, _MASS),
-    "psi": (_PSI, _PRESSURE),
-    "ksi": (1e3 * _PSI, _PRESSURE),
-    "Msi": (1e6 * _PSI, _PRESSURE),
-    "reyn": (_PSI, (-1, 1, -1, 0)),
-    **dict.fromkeys(("degF", "°F"), (5.0 / 9.0, (0, 0, 0, 1))),
-}
-_TEMPERATURES = {
-    **dict.fromkeys(("degC", "°C", "C", "deg C"), (1.0, 273.15)),
-    **dict.fromkeys(("degF", "°F", "F", "deg F"), (5.0 / 9.0, 273.15 - 160.0 / 9.0)),
-}
-"""Kelvins per degree, and temperature at zero degrees [K]."""
-_ANGLE_UNITS = ("rad", "mrad", "deg", "°", "arcmin")
-
+from tehl.base.unit_table import ANGLE_UNITS, FORCE, MASS, NONE, TEMPERATURES, UNITS, Dimension
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _TURNING = re.compile(r"(?:rpm|RPM|r/min|rev/min|U/min|1?/min|min\^?-1|min⁻¹)(?![\w/^*])")
@@ -145,7 +68,7 @@ def _read_unit(text: str) -> tuple[float, Dimension]:
 
     Innermost brackets first: each becomes a unit with the name ``<number>``.
     """
-    units, plain = dict(_UNITS), text.replace("⁻¹", "^-1").translate(_SUPERSCRIPTS)
+    units, plain = dict(UNITS), text.replace("⁻¹", "^-1").translate(_SUPERSCRIPTS)
     while (group := _GROUP.search(plain)) is not None:
         name = f"<{len(units)}>"
         units[name] = _product(group[1].strip(), units, text)
@@ -157,7 +80,7 @@ def _product(
     plain: str, units: dict[str, tuple[float, Dimension]], text: str
 ) -> tuple[float, Dimension]:
     """Return factor to SI and dimension of a product of powers without brackets."""
-    factor, dimension, place = 1.0, _NONE, 0
+    factor, dimension, place = 1.0, NONE, 0
     while place == 0 or place < len(plain):
         match = _FACTOR.match(plain, place)
         assert match is not None  # each part is optional
@@ -252,8 +175,8 @@ class Quantity:
             raise ValueError(f"lacks a unit; {self.expected}, or a number in SI without quotes")
         if not unit:
             return number
-        if self.unit == "K" and unit in _TEMPERATURES:
-            per_degree, zero = _TEMPERATURES[unit]
+        if self.unit == "K" and unit in TEMPERATURES:
+            per_degree, zero = TEMPERATURES[unit]
             return number * per_degree + zero
         if turning := _TURNING.match(unit):
             return number * self._per_turn(unit, unit[turning.end() :].strip())
@@ -277,9 +200,9 @@ class Quantity:
     def _factor(self, unit: str) -> float:
         """Return the factor from ``unit`` to SI."""
         factor, dimension = self._unit(unit)
-        if self.unit == "-" and unit in _ANGLE_UNITS:
+        if self.unit == "-" and unit in ANGLE_UNITS:
             raise ValueError(f"has the unit of an angle ({unit}); {self.expected}")
-        turns = any(one in unit for one in _ANGLE_UNITS)
+        turns = any(one in unit for one in ANGLE_UNITS)
         if self.unit == "rad/s" and not turns:
             raise ValueError(f"has the unit of a frequency ({unit}); {self.expected}")
         if self.unit == "Hz" and turns:
@@ -303,8 +226,8 @@ class Quantity:
                 joined = _read_unit(f"{above}/({below})")  # data sheets have J/kg K
                 found = joined if joined[1] == self.dimension else found
         except ValueError as error:
-            alike = [one for one in _UNITS if one.lower() == unit.lower()]
-            near = " or ".join(one for one in alike if _UNITS[one][1] == self.dimension)
+            alike = [one for one in UNITS if one.lower() == unit.lower()]
+            near = " or ".join(one for one in alike if UNITS[one][1] == self.dimension)
             guess = f", did you mean {near}?" if near else ""
             raise ValueError(f"{error}{guess}; {self.expected}") from None
         return found
@@ -368,8 +291,8 @@ def percentage(part: float) -> str:
 
 
 def _kind(dimension: Dimension, unit: str) -> str:
-    if dimension == _NONE:
-        return f"an angle ({unit})" if unit in _ANGLE_UNITS else f"a plain number ({unit})"
+    if dimension == NONE:
+        return f"an angle ({unit})" if unit in ANGLE_UNITS else f"a plain number ({unit})"
     return f"{_KINDS.get(dimension, 'another quantity')} ({unit})"
 
 
@@ -455,7 +378,7 @@ _KINDS = {
         *(Temperature, TemperatureCoefficient, Density, Conductivity),
         *(HeatCapacity, VolumeHeatCapacity),
     )
-} | {_MASS: "a mass"}
+} | {MASS: "a mass"}
 """What a value with another unit is, by its dimension."""
 _CONVERSIONS = {
     (quantity(KinematicViscosity).dimension, quantity(Viscosity).dimension): (
@@ -464,6 +387,6 @@ _CONVERSIONS = {
     (quantity(VolumeHeatCapacity).dimension, quantity(HeatCapacity).dimension): (
         'divide it by the density, also with basis = "volume"'
     ),
-    (_MASS, _FORCE): "a force has N, kN or lbf",
+    (MASS, FORCE): "a force has N, kN or lbf",
 }
 """How to convert what was given to what is expected, by their dimensions."""
