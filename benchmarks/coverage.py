@@ -117,6 +117,7 @@ def _off(result: Result, nodes: int, *, heated: bool) -> dict[str, float]:
         return {}
     try:
         combined = result.errors is not None and result.errors.extrapolated
+        # of second order, which stated nodes have, it would err by more than what it judges
         judge = attempt(result.problem, Options(points=finer, extrapolate=combined, wedge_order=3))
     except InputError:
         return {}

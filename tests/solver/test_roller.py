@@ -253,6 +253,7 @@ def test_the_middle_of_a_roller_has_third_order_while_its_speed_varies():
     thinnest = 3.948e-8  # of the steady film at the beginning on 513 x 257 nodes
     assert coarse.film_minimum[0] == pytest.approx(thinnest, rel=0.02)
     assert fine.film_minimum[0] == pytest.approx(thinnest, rel=0.015)
+    # 65 and 129 nodes are 1.8 and 1.1 % too thick at the beginning, and differ by 1.4 % at most
     least = np.interp(coarse.time, fine.time, fine.film_minimum)
     assert coarse.film_minimum == pytest.approx(least, rel=0.02)
 

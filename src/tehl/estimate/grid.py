@@ -31,7 +31,7 @@ END_CELL, SHORTEST_CELL, LEAST_PART = 5.2, 0.6, 0.002
 """Length of the cells where a roller ends or leaves the raceway over their width and the root of
 the central film: the valley before a loaded end is as wide as 0.7 of that root. With 5 cycles of a
 tilted logarithmic profile (M = 50) stall on 1025 x 513 nodes; with 6.5 the thinnest film errs by
-4 % in place of 2 on 65 x 65 (M = 10), by 1 % in place of 0.2 on 257 x 129 (M = 50). Least length
+4 % in place of 2 on 65 x 65 (M = 10), by 1 % in place of 0.3 on 257 x 129 (M = 50). Least length
 over the width: with 0.3 those of heavy loads (M = 150) diverge. Least part of the mean distance of
 lines that it may be."""
 OUTSIDE_GROWTH, PLACING_HALVINGS = 3.0, 60
@@ -248,8 +248,8 @@ def closest(crowding: float, edges: tuple[float, float]) -> float:
 def _number(y: Array, width: float, edges: tuple[float, float]) -> Array:
     """Return the number of a line at Y, not scaled: the integral of the density of lines.
 
-    The sum of (w^2 + t^2)^(-1/2) over both places with t the distance from them, `OUTSIDE_GROWTH`
-    times that where it is outside of the loaded part. Differences between lines whose distance
+    The sum of (w^2 + t^2)^(-1/2) over both places, t the distance from them within the loaded part
+    and `OUTSIDE_GROWTH` times that outside of it. Differences between lines whose distance
     changes by the part r from one to the next err by r times their distance: with 1/(w + t) that is
     most where the film is thinnest.
     """

@@ -30,10 +30,10 @@ STEEP_END, VALLEY_CELL, THICK_CELL = 0.4, 2.0, 6.5
 are shorter, in half-widths, and the shortest ones: their length over the width, over H_c^(2/3) and
 over H_c for the central film, of which the longer counts. The dry gap opens as the power 3/2 of the
 distance, so the valley lies 0.26 H_c^(2/3) before the end of the dry contact. The minimum of
-lundberg profiles on 257 x 129 and 513 x 257 nodes then errs by 0.6 and 0.1 % (M = 50), and by 3 and
-1 % (M = 64, L = 1.3); cycles converge faster with cells 1.35 times as long, but bars of nine
-rollers (M = 5 to 74) are half as large again, and three need a finer grid for 2 %. A thick film
-leaves no step: at H_c = 0.19 cycles on 513 x 257 nodes diverge without the second length."""
+lundberg profiles on 257 x 129 and 513 x 257 nodes then errs by 0.7 and 0.2 % (M = 50), and by 4 and
+1 % (M = 64, L = 1.3); cycles converge faster with cells 1.35 times as long, but bars of ten rollers
+(M = 5 to 74) are larger, in the median 1.4 times, and three more need a finer grid for 2 %. A thick
+film leaves no step: at H_c = 0.19 cycles on 513 x 257 nodes diverge without the second length."""
 START_CELLS = 2.0
 """Half-width of the contact to start from, in cells at the least."""
 STEEP_LINES = 65
