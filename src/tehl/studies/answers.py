@@ -162,8 +162,10 @@ def _frame_of(headings: Sequence[str], lines: Iterable[Mapping[str, Any]]) -> "p
     """Return lines as a frame with these columns; texts stay what they are, `Doubtful` too."""
     import pandas as pd  # noqa: PLC0415 (0.5 s)
 
-    rows = list(lines)
-    columns = {name: [row.get(name) for row in rows] for name in headings}
+    columns: dict[str, list[Any]] = {name: [] for name in headings}
+    for line in lines:
+        for name, column in columns.items():
+            column.append(line.get(name))
     has_text = {name: any(isinstance(one, str) for one in columns[name]) for name in headings}
     return pd.DataFrame(
         {
