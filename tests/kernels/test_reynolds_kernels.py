@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tehl.kernels import properties, reynolds
+from tehl.kernels.faces import CLOSED, STEADILY
 from tests.kernels.reynolds_twin import isotropic, operator_twin, random_film, stencil_of
 
 MIRROR = pytest.mark.parametrize("mirror", [0, 1])
@@ -45,6 +46,35 @@ def test_surfaces_that_do_not_spin_have_the_plain_wedge_turned_in_any_direction(
             out,
         )
         np.testing.assert_allclose(out, turn(plain), rtol=1e-12, atol=1e-11)
+
+
+def test_the_layer_limits_what_comes_in_through_a_closed_end():
+    """Of scarce oil that of the layer, else what the end line passes on, as if it was flooded."""
+    shape, speed = (6, 9), 0.7
+    film = random_film(shape)
+    film.p[:] = 0.0  # the wedge alone
+    marks = np.zeros(shape, np.uint8), np.ones(shape, np.uint8)
+    film = film._replace(speed=np.zeros(6), partial=marks[0], second=marks[1])
+    stencil = stencil_of(CLOSED)
+    widths, mass = np.array([0.5, 1.0, 1.0, 1.0, 1.0, 0.5]), film.rho * film.h
+    passed = 0.5 * (mass[0] + mass[1])[1:-1]  # where it enters rho H continues linearly
+    for way in (1, -1):
+        drift = np.full(shape, speed)
+        drift[0] *= 2.0  # half a width
+        turned = [np.ascontiguousarray(field[::way]) for field in film[:7]]
+        moved = film._replace(**dict(zip(film._fields[:7], turned, strict=True)))
+        moved, found = moved._replace(drift=way * drift[::way]), []
+        for layer in (0.1, 0.3, np.inf):
+            out = np.empty(shape)
+            reynolds.operator(
+                moved._replace(layer=np.full(6, layer)), stencil._replace(conserves=STEADILY), out
+            )
+            found.append(widths @ out[:, 1:-1] / (stencil.w0 - stencil.w2))
+        np.testing.assert_allclose(found[1] - found[0], speed * 0.2, rtol=1e-12)
+        np.testing.assert_allclose(found[2] - found[0], speed * (passed - 0.1), rtol=1e-12)
+        flooded = np.empty(shape)
+        reynolds.operator(moved, stencil, flooded)
+        np.testing.assert_allclose(out, flooded, rtol=1e-12, atol=1e-12)
 
 
 @MIRROR

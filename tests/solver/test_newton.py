@@ -13,7 +13,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels import reynolds
 from tehl.operators.flow import flow_table
 from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
-from tehl.operators.reynolds import Entrainment
+from tehl.operators.turning import Entrainment
 from tehl.result.solution import Status
 from tehl.solver import attempts, steady
 from tehl.solver.cycle.continuation import MOST_NEWTON_STEPS, RAISED_RESIDUAL, Homotopy

@@ -10,7 +10,7 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import TransientResult
 from tehl.api.solvers import solve, solve_transient
 from tehl.contact.options import Domain, Options
-from tehl.operators.reynolds import Entrainment
+from tehl.operators.turning import Entrainment
 from tehl.post.stress.moving import frame_loads
 from tehl.post.transient import film_at
 from tehl.solver.monitor import SILENT

@@ -15,7 +15,7 @@ from tehl.kernels.reynolds import (
     row_below,
     sides,
 )
-from tehl.kernels.turning import flow_from, passed_on
+from tehl.kernels.turning import flow_from, part_back, passed_on
 
 
 @kernel
@@ -238,7 +238,7 @@ def _curved_oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -
             moved = abs(u) * passed_on(film, stencil, (j, from_), way, False) / rate
             pressed = flow_from(film, stencil, j, i, 1) / rate
             if film.partial[j, from_] and not film.partial[j, 2 * i + 1 - from_]:
-                pressed *= 1.0 - abs(u) / (abs(u) + abs(film.drift[j, from_]))
+                pressed *= 1.0 - part_back(film, j, from_)
             passed[j, i] = (moved if u > 0.0 else -moved) - pressed
 
 

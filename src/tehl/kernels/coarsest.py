@@ -38,10 +38,14 @@ class Conductance(NamedTuple):
 
 
 class Lines(NamedTuple):
-    """Speed and drift of surfaces that spin, and weights of the lines beside, as of `Film`."""
+    """Speed and drift of surfaces that spin, oil that enters, and weights of the lines beside.
+
+    As of `Film`.
+    """
 
     speed: Array
     drift: Array
+    layer: Array
     south: Array
     north: Array
 
@@ -258,7 +262,31 @@ def _add_curved(state: Coarse, stencil: Stencil, work: Work) -> None:
     near[FAR] = here + 2 * along if 0 <= i + 2 * along < nx else here
     near[ASIDE] = here + 2 * across * nx if 0 <= j + 2 * across < ny else here
     _subtract_wedge(state, stencil, work, (abs(u), WEST if u > 0.0 else EAST, FAR))
-    _subtract_wedge(state, stencil, work, (abs(v), SOUTH if v > 0.0 else NORTH, ASIDE))
+    if 0 <= j + across < ny:
+        _subtract_wedge(state, stencil, work, (abs(v), SOUTH if v > 0.0 else NORTH, ASIDE))
+    elif stencil.conserves == STEADILY:
+        _subtract_excess(state, stencil, work, (abs(v), NORTH if v > 0.0 else SOUTH, j))
+
+
+@helper
+def _subtract_excess(
+    state: Coarse, stencil: Stencil, work: Work, way: tuple[float, int, int]
+) -> None:
+    """Subtract the derivatives of what an end line passes on beyond the layer that enters there.
+
+    ``way``: speed, slot of the node downstream, and row.
+    """
+    (size, ahead, j), rate = way, stencil.w0 - stencil.w2
+    here, after = work.near[HERE], work.near[ahead]
+    part = 0.5 if stencil.w2 > 0.0 and state.second[after] and not state.partial[after] else 0.0
+    mass = (1.0 - part) * state.rho[here] * state.h[here]
+    mass += part * state.rho[after] * state.h[after]
+    if mass <= state.lines.layer[j]:
+        return
+    for n, w in ((HERE, 1.0 - part), (ahead, part)):
+        there = work.near[n]
+        work.by_p[n] -= size * rate * w * state.drho[there] * state.h[there]
+        work.by_h[n] -= size * rate * w * state.rho[there]
 
 
 @helper

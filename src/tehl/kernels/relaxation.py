@@ -37,7 +37,7 @@ from tehl.kernels.reynolds import (
     row_below,
     sides,
 )
-from tehl.kernels.turning import is_second
+from tehl.kernels.turning import crossing, is_second
 
 Span = tuple[int, int]
 
@@ -286,7 +286,7 @@ def _load_curved(
         _load_node(film, stencil, relaxation, (j, inside), (at, lane), rows)
         if back:
             _load_reversed(film, stencil, relaxation, (j, i), (at, lane))
-        drift = abs(film.drift[j, i])
+        drift = crossing(film, stencil, j, i)
         cells[at, ACROSS, lane] += drift * stencil.w0 * cells[at, MASS_P, lane]
         first = k == 1
         w0 = stencil.w0 - stencil.w2 if first else stencil.w0
@@ -294,6 +294,8 @@ def _load_curved(
         w2 = 0.0 if first else stencil.w2
         if stencil.conserves == STEADILY and 1 <= k < nx - 1:
             w0, w1, w2 = _curved_weights(film, stencil, (j, i), (1 if back else -1, k))
+            if film.partial[j, i] and not film.partial[j, i - 1 if back else i + 1]:
+                cells[at, EAST, lane] = 0.0  # it comes back, in this line or the next one
         cells[at, OWN, lane] = size * w0
         cells[at, UPSTREAM, lane] = size * w1
         cells[at, FARTHER, lane] = size * w2
@@ -738,6 +740,6 @@ def relax_points(film: Film, stencil: Stencil, rhs: Array, self_film: Array, ome
             slope -= stencil.w0 * rho[j, i] * self_film[0]
             slope -= stencil.w1 * rho[j, i - 1] * self_film[1]
             if film.speed.shape[0] > 0:
-                slope -= stencil.w0 * abs(film.drift[j, i]) * rho[j, i] * self_film[0]
+                slope -= stencil.w0 * crossing(film, stencil, j, i) * rho[j, i] * self_film[0]
             p[j, i] = max(p[j, i] + omega * (rhs[j, i] - flow + wedge) / slope, 0.0)
     join_ends(p, stencil.mirror)

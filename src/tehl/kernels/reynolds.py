@@ -32,7 +32,7 @@ from tehl.kernels.faces import (
 )
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
-from tehl.kernels.turning import subtract_curved_flux
+from tehl.kernels.turning import crossing, subtract_curved_flux
 
 
 @helper
@@ -152,9 +152,11 @@ def curved_wedge(film: Film, stencil: Stencil, j: int, i: int) -> float:
 def _difference(film: Film, stencil: Stencil, node: tuple[int, int], way: tuple[int, int]) -> float:
     """Return the upstream difference of rho h at a node; ``way``: rows and columns upstream.
 
-    The first node continues rho h linearly.
+    The first node continues rho h linearly. Through a closed end comes what its line passes on.
     """
     rho, h, (ny, nx), (j, i), (dj, di) = film.rho, film.h, film.p.shape, node, way
+    if not 0 <= j + dj < ny:
+        return 0.0
     here, west = rho[j, i] * h[j, i], rho[j + dj, i + di] * h[j + dj, i + di]
     far_j, far_i, curved = j + 2 * dj, i + 2 * di, 0.0
     if stencil.third > 0.0 and 0 <= j - dj < ny:  # at closed ends nothing is downstream
@@ -303,7 +305,7 @@ def _node_diagonal(film: Film, stencil: Stencil, self_film: float, j: int, i: in
     across += half_s * both_y(film, stencil, eps_y, (j, i), south)
     flow = 0.5 * stencil.cx * along + across
     if film.speed.shape[0] > 0:
-        w0 = stencil.w0 * (abs(film.speed[j]) + abs(film.drift[j, i]))
+        w0 = stencil.w0 * (abs(film.speed[j]) + crossing(film, stencil, j, i))
         return flow + w0 * (film.drho[j, i] * film.h[j, i] + film.rho[j, i] * self_film)
     return flow + stencil.w0 * (film.drho[j, i] * film.h[j, i] + film.rho[j, i] * self_film)
 

@@ -5,7 +5,7 @@ Partly filled cells hold what `tehl.kernels.cavities.fill` brings them (docs/the
 
 from tehl.base.typing import Array
 from tehl.kernels.compiled import helper
-from tehl.kernels.faces import MARK_THIRD_ORDER, Stencil, both_x, third_beyond
+from tehl.kernels.faces import MARK_THIRD_ORDER, STEADILY, Stencil, both_x, third_beyond
 from tehl.kernels.properties import Film
 
 
@@ -26,8 +26,17 @@ def subtract_curved_flux(
         wedge += abs(v) * _flux_difference(film, stencil, (j, i), (-1 if v > 0.0 else 1, 0))
         out[row, i] -= wedge
         if film.partial[j, i + back] and not film.partial[j, i]:
-            part = abs(u) / (abs(u) + abs(film.drift[j, i + back]))
+            part = part_back(film, j, i + back)
             out[row, i] += part * flow_from(film, stencil, j, i + back, -back)
+
+
+@helper
+def part_back(film: Film, j: int, i: int) -> float:
+    """Return the part of the pressure flow from a film ahead along x that goes back to it.
+
+    A partly filled node passes on along x and y what comes, by its speeds.
+    """
+    return abs(film.speed[j]) / (abs(film.speed[j]) + abs(film.drift[j, i]))
 
 
 @helper
@@ -52,8 +61,38 @@ def passed_on(
 ) -> float:
     """Return the flux of oil through the face downstream of a node, over the speed and dx.
 
-    ``way``: rows and columns upstream; a partly filled node counts as full if ``full``.
+    ``way``: rows and columns upstream; a partly filled node counts as full if ``full``. Beyond a
+    closed end lies the layer of the end line: no more of it comes in than that line would pass on
+    if it were full (docs/theory/rollers.md, spin).
     """
+    (j, i), (dj, _), rate = node, way, stencil.w0 - stencil.w2
+    if 0 <= j < film.p.shape[0]:
+        return _passed_within(film, stencil, node, way, full)
+    found = _passed_within(film, stencil, (j - dj, i), way, True)
+    return min(rate * film.layer[j - dj], found) if film.layer.shape[0] > 0 else found
+
+
+@helper
+def crossing(film: Film, stencil: Stencil, j: int, i: int) -> float:
+    """Return the size of the drift where more film of a node carries more oil away along y.
+
+    Zero where oil comes in through a closed end: as much more then comes as is passed on, unless
+    the layer is less.
+    """
+    v, way = film.drift[j, i], (-1 if film.drift[j, i] > 0.0 else 1, 0)
+    if 0 <= j + way[0] < film.p.shape[0]:
+        return abs(v)
+    if stencil.conserves != STEADILY or film.layer.shape[0] == 0:
+        return 0.0
+    rate, found = stencil.w0 - stencil.w2, _passed_within(film, stencil, (j, i), way, True)
+    return abs(v) if rate * film.layer[j] < found else 0.0
+
+
+@helper
+def _passed_within(
+    film: Film, stencil: Stencil, node: tuple[int, int], way: tuple[int, int], full: bool
+) -> float:
+    """Return the flux of `passed_on` from a node of the grid."""
     (j, i), (dj, di), (ny, nx), rate = node, way, film.p.shape, stencil.w0 - stencil.w2
     if film.partial[j, i] and not full:
         found = rate * film.held[j, i]

@@ -17,7 +17,7 @@ from tehl.base.typing import Array, BoolArray, IntArray
 from tehl.estimate.grid import Grid
 from tehl.kernels.faces import CLOSED, MARK_THIRD_ORDER, MOST_OPENING, NO_FILM, Stencil
 from tehl.kernels.properties import Film
-from tehl.operators.reynolds import Entrainment
+from tehl.operators.turning import Entrainment
 
 
 class Neighbours(NamedTuple):
@@ -118,6 +118,8 @@ def neighbours_of(
 ) -> Neighbours:
     """Return the neighbours of the inner nodes.
 
+    The difference upstream is that of a film whose cavities do not conserve oil.
+
     Parameters
     ----------
     grid : Grid
@@ -151,9 +153,12 @@ def neighbours_of(
 def _difference(grid: Grid, stencil: Stencil, inner: BoolArray, way: tuple[int, int]) -> csr_matrix:
     """Return the upstream difference of rho H; ``way``: rows and columns upstream.
 
-    At the first node rho H continues linearly.
+    At the first node rho H continues linearly. Through a closed end comes what its line passes on.
     """
-    (dj, di), first = way, inner.copy()
+    (dj, di), inner = way, inner.copy()
+    if dj and grid.is_closed:
+        inner[0 if dj < 0 else -1] = False
+    first = inner.copy()
     edge = (
         (slice(2, None) if dj < 0 else slice(-2) if dj > 0 else slice(None)),
         (slice(2, None) if di < 0 else slice(-2) if di > 0 else slice(None)),

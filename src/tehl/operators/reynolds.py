@@ -11,19 +11,15 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
-from tehl.estimate.scaling import Groups, ScaledProblem
-from tehl.estimate.spin import slowing, spin_number
+from tehl.estimate.scaling import Groups
 from tehl.kernels.faces import CLOSED, IN_TIME, MARK_THIRD_ORDER, STEADILY, WRAPPED, Stencil
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import operator
 from tehl.operators.influence import Influence
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
 """Weights of rho H of a node and of its upstream neighbours in the wedge, by its order [1/dx]."""
 NODE_ROUNDING = 1e-9
 """Rounding of a number of mesh widths."""
-NO_DRIFT = 1e-300
-"""Drift that is as good as none, but has a sign: rows upstream of it exist."""
 CUBIC = (-1, 0, 1, 2)
 """Nodes of the cubic interpolation, upstream of the node before the place."""
 INFLUENCE_NODES = 8
@@ -80,39 +76,6 @@ def _arithmetic_part(wedge_order: int, *, is_closed: bool, oblique: bool) -> flo
     if wedge_order < 3 and not is_closed:
         return 1.0
     return 1.0 / 3.0 if oblique or is_closed else 0.0
-
-
-class Entrainment(NamedTuple):
-    """Mean speeds of the surfaces, as `tehl.kernels.properties.Film` has them."""
-
-    speed: Array
-    drift: Array
-
-
-ALONG_X = Entrainment(np.zeros(0), np.zeros((0, 0)))
-"""That of surfaces that do not spin; and in a time step, which follows the oil."""
-
-
-def entrainment(grid: Grid, scaled: ScaledProblem) -> Entrainment:
-    """Return the mean speeds of surfaces that spin; without elements if they do not.
-
-    With the spin S = omega a_x/u_m of the mean motion and the speed u_0 of the moment they are
-    u = u_0 - S kappa Y along x and v = S X along y, with no difference where it enters at an end.
-
-    Parameters
-    ----------
-    grid, scaled : Grid, ScaledProblem
-        Nodes, and the contact with its motion.
-    """
-    if (spin := spin_number(scaled)) == 0.0:
-        return ALONG_X
-    across = grid.dx / (scaled.groups.ellipticity * grid.dy)
-    close = grid.dy / np.gradient(grid.y) if grid.crowding else np.ones(grid.shape[0])
-    drift = spin * across * close[:, None] * grid.x
-    if grid.is_closed:
-        drift[0] = np.minimum(drift[0], -NO_DRIFT)
-        drift[-1] = np.maximum(drift[-1], NO_DRIFT)
-    return Entrainment(scaled.moment.speed - slowing(scaled, grid.y), drift)
 
 
 def conductance(stencil: Stencil, here: Array, there: Array) -> Array:
@@ -263,30 +226,6 @@ def _wedge_along(mass: Array, x: Array, spacing: float, order: int) -> Array:
     return found
 
 
-def turning_wedge(mass: Array, ways: Entrainment, stencil: Stencil, marks: Film) -> Array:
-    """Return the upstream difference of the mass rho H where the surfaces spin, zero on the edges.
-
-    Parameters
-    ----------
-    mass : (ny, nx) array
-        rho H, or the oil of partly filled nodes [-].
-    ways : Entrainment
-        Mean speeds of the surfaces.
-    stencil : Stencil
-        Weights of the steady operator.
-    marks : Film
-        Its ``partial`` and ``second``, if it has them, choose the orders of the fluxes.
-    """
-    nothing = np.zeros_like(mass)
-    film = Film(nothing, mass, nothing, np.ones_like(mass), *(nothing,) * 3, **ways._asdict())
-    if marks.partial.size:
-        second = np.where(marks.partial > 0, 0, marks.second).astype(np.uint8)
-        film = film._replace(partial=marks.partial, second=second, held=mass)
-    found = np.empty_like(mass)
-    operator(film, stencil, found)
-    return -found
-
-
 def steady_flux(film: Film, held: Array, grid: Grid, order: int) -> Array:
     """Return the difference of the wedge fluxes along x where cavities conserve oil.
 
@@ -428,23 +367,3 @@ def _crowded_shapes(grid: Grid, influence: Influence, lines: int) -> LineShapes:
     dipole -= (lowers[:, :, None] * beside).sum(axis=0)
     point = films[reach - lines : reach + lines + 1, :, :-1].sum(axis=0)
     return LineShapes(point, dipole, np.array([along, aside, *lowered]).T)
-
-
-def curved_influence(influence: Influence, stencil: Stencil, parts: tuple[float, float]) -> Array:
-    """Return the wedge along y, over rho and drift, of the film of a point and a dipole, (2, n).
-
-    Parameters
-    ----------
-    influence, stencil : Influence, Stencil
-        Of the grid.
-    parts : (float, float)
-        As of `line_influence`.
-    """
-    along, aside = parts
-    columns = np.abs(np.arange(-1, INFLUENCE_NODES + 1))
-    table = influence(np.arange(4)[:, None], columns)  # rows at distances 0 to 3
-    point, beyond = table[:3, 1:-1], table[1:4, 1:-1]
-    before = table[[1, 0, 1], 1:-1]
-    dipole = point - along * (table[:3, :-2] + table[:3, 2:]) - aside * (before + beyond)
-    weights = np.array([stencil.w0, stencil.w1, stencil.w2])[:, None]
-    return np.array([(weights * film).sum(axis=0) for film in (point, dipole)])

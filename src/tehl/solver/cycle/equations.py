@@ -28,8 +28,9 @@ from tehl.operators.film import gap, rigid_motions
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence, influence_of
 from tehl.operators.load import Load
-from tehl.operators.reynolds import Entrainment, entrainment, of_second_order, steady_stencil
+from tehl.operators.reynolds import of_second_order, steady_stencil
 from tehl.operators.summits import AsperityTable, asperity_table
+from tehl.operators.turning import Entrainment, entrainment
 
 FLOOR = 0.02
 """Least film in the conductance, over the expected central film."""

@@ -68,6 +68,7 @@ def linearised(level: Level) -> Coarse:
         lines=Lines(
             film.speed,
             film.drift,
+            film.layer,
             south=np.repeat(film.south, columns),
             north=np.repeat(film.north, columns),
         ),

@@ -19,7 +19,8 @@ from tehl.kernels.faces import CLOSED, Stencil
 from tehl.kernels.properties import Film
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence
-from tehl.operators.reynolds import curved_influence, line_influence, line_shapes
+from tehl.operators.reynolds import line_influence, line_shapes
+from tehl.operators.turning import curved_influence
 from tehl.solver.cycle.equations import FLOOR, Equations
 
 

@@ -14,9 +14,9 @@ from tehl.operators.reynolds import (
     of_second_order,
     steady_flux,
     steady_wedge,
-    turning_wedge,
     upstream,
 )
+from tehl.operators.turning import turning_wedge
 from tehl.solver.cycle.level import Level
 from tehl.solver.physics.cavity import around, oil_flow
 
@@ -141,8 +141,9 @@ class TurningOil(Oil):
         self.carrier = carrier_of(level.grid, level.equations.groups.ellipticity)
         self.ways, self.first = level.equations.entrainment, schedule.moments[0].speed
         self.weights = level.balance if order > 2 else of_second_order(level.balance)
-        partial, second = level.film.partial.copy(), level.film.second.copy()
-        self.marks = level.film._replace(partial=partial, second=second)
+        film = level.film
+        kept = {name: getattr(film, name).copy() for name in ("rho", "h", "partial", "second")}
+        self.marks = film._replace(**kept)
         super().__init__(level, stride, order, schedule)
 
     def brought(self, number: int) -> Array:

@@ -21,7 +21,8 @@ import numpy as np
 from tehl.base.typing import Array
 from tehl.contact.transient import Transient
 from tehl.estimate.schedule import Schedule
-from tehl.operators.reynolds import ALONG_X, step_stencil
+from tehl.operators.reynolds import step_stencil
+from tehl.operators.turning import ALONG_X
 from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.relaxation import Relaxation
