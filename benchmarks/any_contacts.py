@@ -28,7 +28,10 @@ LENGTHS = (5.0, 40.0)
 CROWNS = (2.0, 10.0)
 """Drop of a crowned roller at its ends, over b^2/R: with less an end presses as a sharp edge."""
 SLIDING, ACROSS, SPINNING, LARGEST_SPIN = 0.6, 0.2, 0.2, 0.5
-"""How often surfaces slide, also across, or spin; and the largest spin of both over u_m / a_x."""
+"""How often surfaces slide, also across, or spin; and the largest spin of both over u_m / a, a the
+larger half-width: half the length of a roller."""
+ROLLER_SPIN = 1
+"""Number of the random numbers for spins of rollers, apart from those of all else."""
 FEATURES = {
     "thermal": 0.33,
     "thinning": 0.3,
@@ -73,6 +76,21 @@ def contact(
     rng = np.random.default_rng([seed, number])
     shapes, parts = (POINT_SHAPES, ALL_FEATURES) if tables_at_once else (SHAPES, FEATURES)
     kind = str(rng.choice(list(shapes), p=list(shapes.values())))
+    features, problem = _drawn(rng, kind, parts)
+    if kind == "roller":
+        turned = _turned(np.random.default_rng([seed, number, ROLLER_SPIN]), problem)
+        if turned is not None:
+            return kind, features | {"spin"}, turned
+    return kind, features, problem
+
+
+def _drawn(
+    rng: np.random.Generator, kind: str, parts: dict[str, float]
+) -> tuple[set[str], ContactProblem]:
+    """Return features and problem of a contact of one shape; rollers do not spin.
+
+    ``parts``: how often each feature is drawn.
+    """
     while True:
         try:
             tables = _plain(rng, kind)
@@ -95,7 +113,7 @@ def contact(
         scaled = ScaledProblem.of(problem)
         if misplaced(scaled, duration_of(scaled)):
             continue
-        return kind, features, problem
+        return features, problem
 
 
 def _plain(rng: np.random.Generator, kind: str) -> dict[str, Any]:
@@ -149,11 +167,31 @@ def _motion(rng: np.random.Generator, tables: dict[str, Any], bare: ContactProbl
         stated["sliding_angle"] = float(rng.uniform(-math.pi, math.pi))
         found.add("across")
     if not bare.contact.has_lines and rng.random() < SPINNING:
-        unit = bare.entrainment_speed / max(bare.hertz.half_width_x, bare.hertz.half_width_y)
-        for key in ("spin_1", "spin_2"):
-            stated[key] = unit * float(rng.uniform(-LARGEST_SPIN, LARGEST_SPIN))
+        stated |= _spins(rng, bare)
         found.add("spin")
     return found
+
+
+def _spins(rng: np.random.Generator, bare: ContactProblem) -> dict[str, float]:
+    """Return the spins of both surfaces [rad/s]."""
+    unit = bare.entrainment_speed / max(bare.hertz.half_width_x, bare.hertz.half_width_y)
+    return {
+        key: unit * float(rng.uniform(-LARGEST_SPIN, LARGEST_SPIN)) for key in ("spin_1", "spin_2")
+    }
+
+
+def _turned(rng: np.random.Generator, roller: ContactProblem) -> ContactProblem | None:
+    """Return a roller that spins; None if no spin is drawn, or it is not a valid case."""
+    if not rng.random() < SPINNING:
+        return None
+    given = roller.model_dump(exclude_none=True)
+    given["contact"] |= _spins(rng, roller)
+    try:
+        problem = ContactProblem.model_validate(given)
+    except ValueError:
+        return None
+    scaled = ScaledProblem.of(problem)
+    return None if misplaced(scaled, duration_of(scaled)) else problem
 
 
 def _add(

@@ -5,6 +5,7 @@ import pytest
 from benchmarks.pairs import tables_of
 from scipy.linalg.lapack import dgetrs
 
+from benchmarks import any_contacts
 from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import Result
 from tehl.api.solvers import solve, solve_transient
@@ -79,6 +80,17 @@ def test_scarce_oil_comes_in_through_the_ends_as_the_layer():
     oil = around(level.film.partial == 0)
     assert np.abs(wedge[~oil]).max() < 1e-9 * np.abs(wedge).max()
     assert (~oil[0, 1:-1] & (level.film.drift[0, 1:-1] > 0.0)).any()
+
+
+def test_spins_of_random_rollers_leave_all_else_that_is_drawn_as_it_is(monkeypatch):
+    kind, features, spins = any_contacts.contact(401, 22)
+    assert (kind, features) == ("roller", {"spin"})
+    monkeypatch.setattr(any_contacts, "_turned", lambda *_: None)
+    plain = any_contacts.contact(401, 22)[2]
+    alone = {"spin_1": plain.contact.spin_1, "spin_2": plain.contact.spin_2}
+    assert spins.model_copy(update={"contact": spins.contact.model_copy(update=alone)}) == plain
+    ends = 0.5 * spins.contact.length * np.abs([spins.contact.spin_1, spins.contact.spin_2])
+    assert 0.0 < ends.max() <= 0.5 * spins.entrainment_speed
 
 
 @pytest.mark.parametrize("layer", [0.1, 100.0])
