@@ -32,6 +32,7 @@ from tehl.solver.judging.grid_errors import (
     LEAST_MINIMUM,
     LEAST_OF_SCARCE,
     LINE_MINIMUM,
+    PART_AT_ENDS,
     PART_AT_SIDES,
     THIRD_CHANGE,
     THIRD_PART,
@@ -202,6 +203,13 @@ def test_the_minimum_of_a_roller_has_the_bar_of_films_between_its_nodes() -> Non
         trace.measured |= {"spike": 0.5, "excess": 0.01}
     change = 2.267 / 2.230 - 1.0
     assert error_estimate(traces, traits).discretisation_minimum == pytest.approx(change)
+    traits = replace(traits, crowded=True)
+    part = PART_AT_ENDS * change
+    assert error_estimate(traces, traits).discretisation_minimum == pytest.approx(part)
+    assert error_estimate(traces[1:], traits).discretisation_minimum == pytest.approx(change)
+    traces[1].measured["film_minimum"] = 2.25e-3  # a change of less than a percent
+    bar = LINE_MINIMUM * THIRD_PART * (2.25 / 2.230 - 1.0)
+    assert error_estimate(traces, traits).discretisation_minimum == pytest.approx(bar)
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from tehl.base.typing import Array
 from tehl.contact.moment import Moment
 from tehl.contact.options import Options
 from tehl.estimate.grid import Grid
+from tehl.estimate.inlet_heating import inlet_heating_factor
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.spin import slowing, spin_number
 from tehl.estimate.starvation import EnteringOil, entering_oil, supplied_film
@@ -207,7 +208,10 @@ def _floor(scaled: ScaledProblem) -> float:
     if scaled.problem.asperities is not None:
         return 0.0
     contact = boundary_film(scaled)
-    return FLOOR * supplied_film(scaled) if contact is None else contact
+    if contact is not None:
+        return contact
+    heated = inlet_heating_factor(scaled.problem) if scaled.problem.thermal is not None else None
+    return FLOOR * supplied_film(scaled) * (heated or 1.0)
 
 
 def _layer(scaled: ScaledProblem, oil: EnteringOil | None, grid: Grid) -> Array | None:
