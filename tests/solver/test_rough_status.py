@@ -8,12 +8,15 @@ import pytest
 
 from tehl.api.results import Result
 from tehl.cli.text import as_text
+from tehl.contact.options import Options
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.io.summary import summary
+from tehl.operators.flow import flow_table
 from tehl.report.page import report_text
 from tehl.result.bars import ErrorEstimate
 from tehl.result.solution import Hint, Status
+from tehl.solver.cycle.equations import Equations
 from tehl.solver.judging.certify import _ending
 from tehl.solver.judging.verdict import _no_film_status, is_film, no_film
 from tests.reference import DOMAIN, heated_contact
@@ -64,6 +67,17 @@ def test_a_film_that_is_negative_between_two_nodes_is_not_a_film():
     assert between.film.h.min() > FLOOR
     assert not is_film(between, errors(0.1))
     assert "not positive: smallest H = -0." in no_film(between)
+
+
+def test_a_film_that_inlet_heating_thins_has_a_lower_floor():
+    """At the ends of a hot roller the film is 0.017 of its isothermal one."""
+    options = Options(points=33)
+    floors = []
+    for slip in (0.0, 1.5):
+        scaled = ScaledProblem.of(heated_contact(slip))
+        grid = Grid(nx=33, ny=33, domain=DOMAIN)
+        floors.append(Equations.on(grid, scaled, flow_table(scaled), options).floor)
+    assert floors[1] < 0.7 * floors[0]
 
 
 def test_a_film_below_the_floor_is_reported_as_such():
