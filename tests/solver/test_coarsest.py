@@ -4,14 +4,17 @@ import numpy as np
 import pytest
 
 from tehl.api.problem import case_from_tables
-from tehl.api.solvers import solve
+from tehl.api.solvers import solve, solve_transient
 from tehl.contact.options import Options
+from tehl.estimate.scaling import scales
 from tehl.solver.cycle import film_solver
 from tehl.solver.cycle.coarsest import CoarsestSolver
 from tehl.solver.cycle.start import from_dry_pressure
 from tehl.solver.judging.measures import film_extremes
+from tehl.solver.transient.snapshot import pack, unpack
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.runs import multigrid
+from tests.solver.test_roller import roller
 
 STEPS = 7
 """Newton steps from the Hertz pressure to rounding errors."""
@@ -91,3 +94,30 @@ def test_rigid_contacts_with_scarce_oil_are_similar_whatever_their_load():
         assert 0.0 < errors[-1] < 0.02
     assert parts[0] == pytest.approx(parts[1], rel=max(errors))
     assert parts[0] < 0.72
+
+
+def test_time_steps_of_a_roller_keep_the_matrix(monkeypatch):
+    """It takes half of a step; a resumed run makes that of an earlier state again, bit by bit."""
+    made, newton_step = [], CoarsestSolver.newton_step
+
+    def counted(solver):
+        made.append(1)
+        return newton_step(solver)
+
+    ends = {"length": "1 mm", "profile": {"shape": "logarithmic"}, "moes_speed": 6.0}
+    units = scales(roller(10.0, **ends))
+    unit = units.half_width_x / units.speed
+    course = {"duration": 0.2 * unit, "load": [[0.0, 1.0], [unit, 1.5]], "frames": 0}
+    case, kept = roller(10.0, transient=course, **ends), []
+    options = Options(points=(129, 65), wedge_order=3)
+
+    def keep(snapshot):
+        kept.append(snapshot.copy())
+        monkeypatch.setattr(CoarsestSolver, "newton_step", counted)  # after the first step
+
+    whole = solve_transient(case, options, keep=keep).history
+    assert len(made) < 0.3 * whole.time.size
+    monkeypatch.undo()
+    again = solve_transient(case, options, resume=unpack(pack(kept[2]))).history
+    for name in ("film_central", "film_minimum", "rigid_approach"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(whole, name))

@@ -154,6 +154,7 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     of_central: bool = False,
     until: float | None = None,
     nodes: tuple[int, int] | None = None,
+    tolerance: float = 0.0,
 ) -> tuple[Attempt, Solution]:
     """Try the strategies; return the best attempt at the steady film and its result.
 
@@ -171,6 +172,8 @@ def try_strategies(  # noqa: PLR0913 (one solve)
         When the time is over, on the clock of `working_time` [s]; None is that of the options.
     nodes : (int, int) or None
         Nodes along x and y to begin with, in place of those planned for the error.
+    tolerance : float
+        As in `Goal`.
     """
     warm_up(coupled=problem.is_coupled)
     until = end_of_time(options) if until is None else until
@@ -180,7 +183,7 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     scaled = ScaledProblem.of(problem)
     if flooded is not None:
         scaled = replace(scaled, flooded_oil=flooded.oil, flooded_error=flooded.error)
-    goal = Goal(scaled, options, of_central=of_central, until=until)
+    goal = Goal(scaled, options, of_central=of_central, until=until, tolerance=tolerance)
     plan = planned(scaled, options)
     plan = goal.fitting(plan if nodes is None else plan.on_points(*nodes))
     check_supply(scaled, domain_of(scaled, plan))

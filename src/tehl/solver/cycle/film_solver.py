@@ -234,8 +234,10 @@ class FilmSolver(GridIteration):
 
     def _has_converged(self) -> bool:
         """Return whether the last grid converged, and its oil flux is constant."""
+        tolerance = max(self.options.tolerance, self.goal.tolerance)
+        options = self.options.model_copy(update={"tolerance": tolerance})
         return self.balance.is_settled and converged(
-            self.traces[-1], self._coarser_trace(), self.options
+            self.traces[-1], self._coarser_trace(), options
         )
 
     def reached_before(self, *, last: bool = False) -> tuple[tuple[int, int], float] | None:

@@ -69,12 +69,15 @@ class Goal:
         Whether the error is that of the central film alone: a supply is stated to that.
     until : float
         When the time is over, on the clock of `working_time` [s].
+    tolerance : float
+        Largest tolerance of a tight solve that has ended its cycles.
     """
 
     scaled: ScaledProblem
     options: Options
     of_central: bool = False
     until: float = math.inf
+    tolerance: float = 0.0
     obstacle: str = ""
     """Why no finer grid follows."""
     advice: str = ""

@@ -99,6 +99,7 @@ class Stepper:
             one.equations = replace(one.equations, stencil=stencil, entrainment=ALONG_X)
             one.film = one.film._replace(**ALONG_X._asdict())
         self.equations = level.equations  # with load and gap of the start
+        solver.hierarchy.coarsest.last = None  # a matrix without the weights of the step
         self.method: Callable[[], None] = partial(
             cycle, levels, solver.hierarchy.coarsest.step, TRANSFERS, SHAPE
         )
@@ -136,13 +137,13 @@ class Stepper:
         moment, moved = self.schedule.moments[number], self.schedule.moved(number)
         if moved is not None:
             coupling.begin_step(moment, moved)
-        self.solver.hierarchy.coarsest.last = None  # that of the last step a resumed run lacks
+        self.solver.hierarchy.coarsest.begin_step()
         history, start = self.oil.brought(number), level.state()
         equations = self.equations.at(moment, self.solver.hierarchy.scaled)
         first = self.setting
         for chosen in range(first, len(self.settings)):
-            self.choose(chosen)
             if chosen > first:  # retry: first restore the film from which stresses follow
+                self.choose(chosen)
                 level.set_state(*start)
                 level.update()
                 coupling.revert(self.solver.levels)
