@@ -17,7 +17,7 @@ from tehl.operators.far_field import far_field
 from tehl.operators.surfaces import Solids, sides
 from tehl.operators.turning import entrainment, turning_wedge
 from tehl.post.film import mass_flow
-from tehl.solver.cycle.linearised import residual_of
+from tehl.solver.cycle.linearised import linearised, residual_of
 from tehl.solver.judging.outputs import oil_balance
 from tehl.solver.monitor import SILENT
 from tehl.solver.physics.cavity import around, oil_flow
@@ -105,7 +105,7 @@ def test_the_newton_step_of_the_coarsest_grid_has_the_derivative_of_what_comes_i
     change[:, 1:-1] = rng.standard_normal((shape[0], shape[1] - 2))
     level.set_state(pressure, 1.0)
     level.update()
-    known, steps = solver._factored(), []
+    known, steps = solver._factored(linearised(level), solver._system()), []
     free = known.work.free[: known.size]
     for step in (1e-6, -1e-6):
         level.set_state(pressure + step * change, 1.0)
