@@ -50,9 +50,10 @@ COARSE_NODES, COARSE_TOUCHING = 33, 17
 surfaces may touch: dense equations of more take longer than the iterations they save."""
 DAMPED_MEMORY = 3
 """Most earlier cycles combined if heat and thinning are damped: older ones had another flow."""
-FIRST_STEPS, TOUCHING_STEPS, SMALL_STEP = 6, 20, 0.03
+FIRST_STEPS, TOUCHING_STEPS, SMALL_STEP = 20, 20, 0.03
 """Most Newton steps on the coarsest grid at the start, and where surfaces may touch, and the change
-at which the first ones have converged."""
+at which the first ones have converged. Steps are limited in length: of 55 random contacts 18 take
+more than 6, and four of these more than 20. Without convergence bars compare with the start."""
 
 Iterate = Callable[[Callable[[], object]], float]
 """Performs a step with all that follows it, and returns the residual."""
