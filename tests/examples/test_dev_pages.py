@@ -54,7 +54,7 @@ def test_the_formula_of_the_page_has_the_value_that_it_states():
 @pytest.mark.parametrize(
     ("page", "file"),
     [
-        ("adding-an-entrainment.md", "src/tehl/operators/reynolds.py"),
+        ("adding-an-entrainment.md", "src/tehl/operators/turning.py"),
         ("adding-an-entrainment.md", "src/tehl/solver/cycle/level.py"),
         ("adding-a-share.md", "src/tehl/contact/shape.py"),
     ],
