@@ -10,9 +10,11 @@ from tehl import InputError, solve, solve_transient
 from tehl.api.problem import ContactProblem
 from tehl.api.results import ConvergenceError, TransientResult
 from tehl.contact.options import Domain, Options
+from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import scales
 from tehl.result.solution import Status
 from tehl.solver.cost import Clock
+from tehl.solver.judging import goal
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient import run
 from tehl.solver.transient.run import Run
@@ -500,3 +502,22 @@ def test_a_start_that_ends_its_cycles_near_its_tolerance_is_kept():
     assert {one.smoother for one in run.start.history} == {"fast"}
     assert 1e-7 < run.start.history[-1].change < 1e-5
     np.testing.assert_allclose(run.history.film_central, run.history.film_central[0], rtol=1e-8)
+
+
+def test_a_run_starts_on_the_fewest_nodes_that_leave_half_of_the_error(monkeypatch):
+    given = moes_contact(20.0, 8.0, radius_ratio=0.5).model_dump(exclude_none=True)
+    transient = {"load": [[0.0, 1.0], [1e-4, 1.1]]}
+    case = ContactProblem.model_validate(given | {"transient": transient})
+    options, found = Options(error=0.02), {}
+    for part in (goal.PART_AT_START, 0.0):
+        monkeypatch.setattr(goal, "PART_AT_START", part)
+        found[part] = Run(case, options, case.transient, SILENT)
+    fewer, first = found.values()
+    assert fewer.level.grid.points == (161, 81)
+    assert first.level.grid.points == (193, 97)
+    assert 0.004 < first.start.errors.film() < fewer.start.errors.film() < 0.01
+    given["surface_1"] |= wave(1e-4, 0.3)
+    rough = ContactProblem.model_validate(given | {"transient": transient})
+    monkeypatch.undo()
+    kept = Run(rough, options, case.transient, SILENT)
+    assert kept.level.grid.points == planned(kept.scaled, options).points  # for the wave

@@ -52,6 +52,8 @@ At steep ends of rollers a cycle leaves 0.8 of the change (M = 72: 6e-7 after th
 SPARE_TIME = 2.0
 """Time that a hint gives to the steps over what they are expected to take: `TIGHT_TIME` of it may
 go to the start."""
+SolveStart = Callable[..., tuple[Attempt, Solution]]
+"""Solves for the steady film by options; keywords are those of `try_strategies`."""
 NEARLY_CONVERGED = 1e-6
 """Change of P in the last cycle of a time step that only a tight tolerance rejects."""
 
@@ -175,12 +177,29 @@ class Run:
         again = not attempt.reached or status.cause == "error_not_reached"
         if not status.converged and again and options.accuracy != "tight":
             attempt, result = solve(options, until=end)
+        attempt, result = self._on_fewer_nodes(attempt, result, tight, solve)
         result = result.but(options=options)
         if not result.status.converged:
             message = f"The steady film at time zero did not converge: {result.status.message}"
             status = replace(result.status, message=message)
             raise ConvergenceError(message, result.but(status=status))
         return attempt, result
+
+    @staticmethod
+    def _on_fewer_nodes(
+        attempt: Attempt, result: Solution, tight: Options, solve: SolveStart
+    ) -> tuple[Attempt, Solution]:
+        """Return the start on a coarser grid where that is enough for the error, else this one."""
+        run, errors = attempt.run, result.errors
+        fewer = run.goal.fewer_nodes(run.finest, errors) if result.status.converged else None
+        if fewer is None:
+            return attempt, result
+        order = run.hierarchy.options.wedge_order
+        stated = tight.on_points(*fewer).model_copy(update={"wedge_order": order})
+        other, found = solve(stated, tolerance=ACCEPTED_START_TOLERANCE)
+        enough = found.status.converged and run.goal.is_met(found.errors)
+        cost = result.cost + found.cost
+        return (other, found.but(cost=cost)) if enough else (attempt, result.but(cost=cost))
 
     @property
     def level(self) -> Level:
