@@ -47,10 +47,10 @@ def changing(points: int, edges: list[float], end: float, **transient: object) -
     return solve_transient(case, Options(points=points, domain=Domain(x=tuple(edges))))
 
 
-SLOW = pytest.param("start", marks=pytest.mark.slow)
+SLOW = [pytest.param(one, marks=pytest.mark.slow) for one in ("sine", "start")]
 
 
-@pytest.mark.parametrize("name", ["sine", "load", "reverse", SLOW])
+@pytest.mark.parametrize("name", ["load", "reverse", *SLOW])
 def test_films_are_those_of_another_program(name):
     cited, films = CITED[name], []
     for points in (193, 385) if name in ("start", "reverse") else (129, 257):
@@ -101,7 +101,7 @@ def test_a_slow_change_passes_through_steady_films():
 def test_the_rolling_moment_of_a_slow_change_is_that_of_the_steady_film(key):
     """It differs by a part in proportion to the rate: the film that opens holds oil back."""
     ends = []
-    for end in (10.0, 20.0):  # the change goes on, as it lifts the film at its end too
+    for end in (7.0, 14.0):  # the change goes on, as it lifts the film at its end too
         tables = {key: [[0.0, 1.0], [2.0 * end * UNIT, 1.4]]}
         run = changing(129, [-4.5, 1.5], end, **tables)
         first = run.start.rolling.moment
@@ -127,7 +127,7 @@ def test_a_stored_film_has_load_motion_and_rolling_moment_of_its_time():
 
 def test_the_rolling_moment_turns_with_the_motion():
     turn = [[0.5 * UNIT, 1.0], [2.5 * UNIT, -1.0]]
-    run = changing(129, [-4.5, 4.5], 10.0, entrainment_speed=turn, max_cycles=60)
+    run = changing(129, [-4.5, 4.5], 8.0, entrainment_speed=turn, max_cycles=60)
     moment = run.history.rolling_moment
     assert moment[-1] == pytest.approx(-moment[0], rel=2e-3)
     numbers, text = run.summary(), as_text(run)
@@ -139,7 +139,7 @@ def test_steps_at_the_default_tolerance_are_within_a_hundredth_of_a_percent_of_t
     """A step that starts from the approach of the last one errs always to the same side."""
     course = CHANGES["sine"]
     tight, usual = (
-        changing(257, [-4.5, 1.5], 4.0, **course, **one) for one in ({}, {"tolerance": 1e-3})
+        changing(257, [-4.5, 1.5], 2.0, **course, **one) for one in ({}, {"tolerance": 1e-3})
     )
     for name in ("film_central", "film_minimum"):
         found, wanted = (getattr(one.history, name) for one in (usual, tight))
@@ -175,7 +175,7 @@ def test_a_wedge_of_third_order_stays_so_while_the_speed_varies(shape):
     """On 65 nodes it errs by less than one of second order on twice as many."""
     case, fewest, most = SHAPES[shape]
     unit = scales(case).half_width_x / scales(case).speed
-    course = {"duration": 2 * unit, "entrainment_speed": f"1 + 0.5*sin(t/({unit!r} s))"}
+    course = {"duration": unit, "entrainment_speed": f"1 + 0.5*sin(t/({unit!r} s))"}
     varying = with_tables(case, transient=course | {"frames": 0})
     assert planned(ScaledProblem.of(varying), Options()).order == 3
     moments, films, more = np.linspace(0.0, 1.0, 9), {}, 2 * fewest - 1
@@ -415,8 +415,8 @@ def heated(end: float, right: float, **transient: object) -> TransientResult:
 
 def test_heat_of_a_speed_that_hardly_changes_is_that_of_a_constant_one():
     load = [[0.0, 1.0], [1.5, 1.2]]
-    plain = heated(3.0, 1.8, load=load)
-    varied = heated(3.0, 1.8, load=load, entrainment_speed=[[0.0, 1.0], [9.0, 1.0 + 1e-7]])
+    plain = heated(1.8, 1.8, load=load)
+    varied = heated(1.8, 1.8, load=load, entrainment_speed=[[0.0, 1.0], [9.0, 1.0 + 1e-7]])
     assert plain.status.converged
     for name, error in (("film_central", 2e-3), ("film_minimum", 2e-3), ("traction", 2e-3)):
         wanted = getattr(plain.history, name)

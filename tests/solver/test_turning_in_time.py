@@ -16,7 +16,7 @@ from tehl.post.transient import film_at
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient.run import Run
 
-OPTIONS = Options(points=65, tolerance=1e-7)
+OPTIONS = Options(points=49, tolerance=1e-7)
 ACROSS = {"sliding_angle": 0.5 * np.pi}
 BOTH = {"spin_1": 600.0, "spin_2": 600.0}
 APART = {"spin_1": 400.0, "spin_2": -200.0, "sliding_angle": 0.4}
@@ -90,7 +90,7 @@ def test_forces_of_sliding_across_are_those_of_sliding_along_turned():
 def test_a_heated_film_keeps_its_temperature_while_nothing_changes():
     tables = {"spin_1": 600.0, "spin_2": -600.0, "sliding_angle": 0.5, "entrainment_speed": 1.0}
     found = solve_transient(
-        case("heat", contact_table=tables, duration=2e-4, frames=0), Options(points=65)
+        case("heat", contact_table=tables, duration=1e-4, frames=0), Options(points=49)
     ).history
     rise = found.temperature_rise
     np.testing.assert_allclose(rise, rise[0], rtol=3e-3)
@@ -103,7 +103,7 @@ def test_heat_in_time_of_sliding_across_goes_to_both_sides_alike():
     one, other = (
         solve_transient(
             case("heat", "load", contact_table={"sliding_angle": angle}, duration=1e-4, frames=2),
-            Options(points=65),
+            Options(points=49),
         )
         for angle in (0.5 * np.pi, -0.5 * np.pi)
     )
@@ -192,8 +192,8 @@ def test_a_run_goes_on_from_a_checkpoint_where_surfaces_spin():
     faster = APART | {"entrainment_speed": 1.0}
     problem = case("heat", "load", contact_table=faster, duration=5e-5, frames=0)
     kept = []
-    whole = solve_transient(problem, Options(points=65), keep=lambda one: kept.append(one.copy()))
-    again = solve_transient(problem, Options(points=65), resume=kept[len(kept) // 2])
+    whole = solve_transient(problem, Options(points=33), keep=lambda one: kept.append(one.copy()))
+    again = solve_transient(problem, Options(points=33), resume=kept[len(kept) // 2])
     np.testing.assert_array_equal(again.history.film_central, whole.history.film_central)
     np.testing.assert_array_equal(again.history.temperature_rise, whole.history.temperature_rise)
 
