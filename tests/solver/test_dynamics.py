@@ -80,7 +80,14 @@ def swept() -> Result:
     return solve(at(moes_contact(50.0, 10.0)), on(65))
 
 
-@pytest.mark.parametrize("group", INDEPENDENT, ids=str)
+@pytest.mark.parametrize(
+    "group",
+    [
+        *list(INDEPENDENT)[:2],
+        *(pytest.param(one, marks=pytest.mark.slow) for one in list(INDEPENDENT)[2:]),
+    ],
+    ids=str,
+)
 def test_stiffness_and_damping_are_those_of_an_independent_solver(group):
     known = INDEPENDENT[group]
     found = solve(at(moes_contact(*group), *known), on(129))

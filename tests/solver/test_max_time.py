@@ -121,7 +121,7 @@ def test_a_grid_that_was_not_reached_is_not_the_cause(cut):
 
 def test_heights_are_not_raised_after_the_time(cut):
     contact = wavy((57.21, 10.52), (0.4, 0.25, 0.0))
-    for cycles in range(20, 60, 8):
+    for cycles in (20, 52):
         result, reports = cut(contact, Options(error=0.02), cycles)
         assert len(reports) == cycles
         assert not result.status.converged

@@ -127,7 +127,7 @@ def test_a_nearly_dry_contact_is_that_of_hertz_and_a_moving_source():
     assert walls == pytest.approx(rise, rel=0.03)
 
 
-@pytest.mark.parametrize("load", [1.0, 0.8])
+@pytest.mark.parametrize("load", [pytest.param(1.0, marks=pytest.mark.slow), 0.8])
 def test_friction_in_time_is_that_of_film_and_solids(load: float):
     """Under a load that differs from that of the contact both are parts of the present one."""
     tables = {"roughness": WAVE | {"amplitude": "0.3 um", "phase": "180 deg"}}
@@ -155,7 +155,7 @@ def test_friction_in_time_is_that_of_film_and_solids(load: float):
 @pytest.mark.usefixtures("unrendered")
 @pytest.mark.parametrize("other", [name for name in NAMES if name not in ("boundary", "spin")])
 def test_each_physics_works_with_a_boundary_film(other: str):
-    assert outcome((other, "boundary"), 65, "report") == "works"
+    assert outcome((other, "boundary"), 49, "report") == "works"
 
 
 @pytest.mark.parametrize("way", [way for way in WAYS if way != "solve"])

@@ -108,15 +108,17 @@ def test_only_the_inlet_edge_can_starve_a_roller():
 )
 def test_physics_join_in_the_middle_as_in_a_line_contact(physics):
     slip = 0.3 if "lubricant" in physics else 0.0
+    # a warm layer is thinner than a cell along the line of the coarser grid
+    columns = 257 if "thermal" in physics else 129
     motion = {"radius": "10 mm", "moes_load": 50.0, "moes_speed": 10.0, "slide_roll_ratio": slip}
     stated = {"surface_1": STEEL, "surface_2": STEEL, "lubricant": "mineral-oil"} | physics
     ends = {"type": "roller", "length": "10 mm", "profile": LOGARITHMIC}
     found, line = (
         tehl.solve(
             tehl.ContactProblem(contact=motion | kind, **stated),
-            Options(points=(257, rows), wedge_order=3),
+            Options(points=(columns, rows), wedge_order=3),
         )
-        for kind, rows in ((ends, 65), ({"type": "line"}, 1))
+        for kind, rows in ((ends, (columns + 3) // 4), ({"type": "line"}, 1))
     )
     # the domain ends with the roller, also where warm bodies or scarce oil change it
     assert found.scaled.y[-1] == 1.0
@@ -128,7 +130,8 @@ def test_physics_join_in_the_middle_as_in_a_line_contact(physics):
     ("shape", "load", "length", "points"),
     [
         ("logarithmic", 150.0, "10 mm", (161, 81)),  # 41 x 41 nodes by halving are too coarse
-        ("lundberg", 75.0, "12 mm", (257, 129)),  # ends that open by the film from line to line
+        # ends that open by the film from line to line
+        pytest.param("lundberg", 75.0, "12 mm", (257, 129), marks=pytest.mark.slow),
         ("logarithmic", 150.0, "30 mm", (129, 129)),  # an inlet that all lines share
     ],
     ids=["heavy", "steep", "long"],
@@ -144,7 +147,7 @@ def test_cycles_of_heavily_loaded_rollers_converge(shape, load, length, points):
 @pytest.mark.parametrize(
     ("profile", "points", "left"),
     [
-        (LOGARITHMIC, (257, 129), 0.35),
+        pytest.param(LOGARITHMIC, (257, 129), 0.35, marks=pytest.mark.slow),
         # with 17 lines on the coarsest grid it ends at 1e-5
         ({"shape": "lundberg"}, (257, 129), 0.5),
         ({"shape": "crown", "radius": "0.25 m"}, (129, 65), 0.35),
@@ -240,7 +243,7 @@ def test_the_middle_of_a_roller_has_third_order_while_its_speed_varies():
     shape = {"length": "1 mm", "profile": LOGARITHMIC, "moes_speed": 6.0}
     units = scales(roller(10.0, **shape))
     unit = units.half_width_x / units.speed
-    course = {"duration": 3 * unit, "entrainment_speed": f"1 + 0.3*sin(2*t/({unit!r} s))"}
+    course = {"duration": 2 * unit, "entrainment_speed": f"1 + 0.3*sin(2*t/({unit!r} s))"}
     case = roller(10.0, **shape, transient=course | {"frames": 0})
     assert settled(case, Options()).order == 3
     fine, coarse = (
@@ -299,15 +302,15 @@ def test_a_roller_is_certified_between_its_ends(logarithmic):
 def test_a_tilted_roller_mirrors_and_carries_more_where_the_gap_closes():
     crowned = {"shape": "crown", "radius": "2 m"}
     first, second = (
-        tehl.solve(roller(20.0, profile=crowned, tilt=tilt), Options(points=(129, 65)))
+        tehl.solve(roller(20.0, profile=crowned, tilt=tilt), Options(points=(97, 49)))
         for tilt in (2e-4, -2e-4)
     )
     assert first.scaled.film == pytest.approx(second.scaled.film[::-1], rel=2e-3)
     loads = first.scaled.pressure.sum(axis=1)
-    assert loads[:32].sum() > 1.2 * loads[33:].sum()
+    assert loads[:24].sum() > 1.2 * loads[25:].sum()
     # a dry roller makes nearly the same moment
     scaled = first.scaled_problem
-    grid = Grid(nx=129, ny=65, domain=domain_of(scaled, Options()), mirror=False)
+    grid = Grid(nx=97, ny=49, domain=domain_of(scaled, Options()), mirror=False)
     dry = dry_pressure(grid, scaled.groups).sum(axis=1) * grid.dx * first.scales.hertz_pressure
     area = first.scales.half_width_x * first.scales.half_width_y**2
     moment = first.rolling.tilting
@@ -315,7 +318,7 @@ def test_a_tilted_roller_mirrors_and_carries_more_where_the_gap_closes():
     assert moment == pytest.approx(-second.rolling.tilting, rel=2e-3)
     assert first.errors.bars["tilting"] < 0.02
     assert "of the load about x" in as_text(first)
-    even = tehl.solve(roller(20.0, profile=crowned), Options(points=(129, 65)))
+    even = tehl.solve(roller(20.0, profile=crowned), Options(points=(97, 49)))
     assert even.summary()["rolling"]["tilting_moment_n_m"] is None
 
 
@@ -384,7 +387,7 @@ def test_lines_crowd_at_the_steep_end_of_the_loaded_part():
 def test_cells_at_a_steep_end_are_as_short_as_a_thin_film_needs():
     """On cells with a third of the length of those at gradual ends the minimum is 18 % off."""
     thin = roller(64.0, length="4 mm", moes_speed=1.3, profile={"shape": "lundberg"})
-    options = Options(points=(257, 129), wedge_order=3, accuracy="tight", tolerance=2e-3)
+    options = Options(points=(257, 129), wedge_order=3)
     # 513 x 257 nodes
     assert tehl.solve(thin, options).film_scaled.minimum == pytest.approx(5.35e-4, rel=0.05)
 

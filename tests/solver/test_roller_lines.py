@@ -75,7 +75,7 @@ def test_lines_crowd_beside_asperities_too():
     assert found.load_sharing.balance == pytest.approx(0.0, abs=1e-4)
 
 
-@pytest.mark.parametrize("tilt", [0.0, 1e-4])
+@pytest.mark.parametrize("tilt", [0.0, pytest.param(1e-4, marks=pytest.mark.slow)])
 def test_cavities_between_lines_that_crowd_conserve_oil(tilt):
     short = roller(20.0, length="3 mm", profile=STANDARD, tilt=tilt)
     conserving = {"cavitation": {"model": "conserving"}}

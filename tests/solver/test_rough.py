@@ -232,7 +232,7 @@ def test_waves_that_the_grid_loses_are_reported_and_count_for_lambda(tmp_path):
     assert load(tmp_path / "a.nc").resolution == result.resolution
 
 
-@pytest.mark.parametrize("degrees", [0.0, 30.0])
+@pytest.mark.parametrize("degrees", [0.0, pytest.param(30.0, marks=pytest.mark.slow)])
 def test_a_rough_film_of_third_order_lies_within_its_bars_on_fewer_nodes(degrees: float) -> None:
     contact, shape = (200.0, 6.0), (0.03, 1.0, degrees)
     found = rough_film(contact, Options(), shape)

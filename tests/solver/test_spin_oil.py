@@ -59,7 +59,7 @@ def test_scarce_oil_in_plenty_is_a_flooded_film_that_spins():
     assert plenty.film.minimum == pytest.approx(conserving.film.minimum, rel=2e-4)
 
 
-@pytest.mark.parametrize("spin", [SPIN, 3000.0])
+@pytest.mark.parametrize("spin", [pytest.param(SPIN, marks=pytest.mark.slow), 3000.0])
 def test_scarce_oil_that_enters_leaves(spin):
     """Through all sides: at 3,000 rad/s oil enters at the sides too, and leaves at the inlet."""
     problem = spinning("starved", spin=spin)

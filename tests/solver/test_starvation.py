@@ -189,7 +189,7 @@ def test_conserving_cavities_leave_a_flooded_film_as_it_is(domain):
 
 def test_the_film_follows_the_law_and_ends_flooded_and_as_thin_as_the_layer():
     parts = {}
-    for ratio in (0.1, 0.4, 0.7, 3.0, 15.0, 500.0):
+    for ratio in (0.1, 0.7, 15.0, 500.0):
         found = solve(starved(100.0, 8.0, ratio=ratio), Options()).starvation
         parts[ratio] = found.degree
         if ratio <= 0.7:
