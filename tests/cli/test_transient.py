@@ -199,7 +199,7 @@ def test_an_unfinished_run_is_stored_marked_and_exits_with_1(folder, run, solved
     assert tehl.load("wave.nc").status == status
 
 
-@pytest.mark.parametrize("limit", [9, 99])
+@pytest.mark.parametrize("limit", [pytest.param(9, marks=pytest.mark.slow), 99])
 def test_a_run_that_ends_at_its_time_is_continued_for_as_long_or_longer(
     folder, run, monkeypatch, limit
 ):

@@ -134,7 +134,10 @@ def test_a_notebook_shows_a_picture_as_it_is(result):
     assert not hasattr(picture, "number")  # pyplot, which would show it again, does not know it
 
 
-@pytest.mark.parametrize(("ending", "begin"), [("pdf", b"%PDF"), ("svg", b"<?xml")])
+@pytest.mark.parametrize(
+    ("ending", "begin"),
+    [pytest.param("pdf", b"%PDF", marks=pytest.mark.slow), ("svg", b"<?xml")],
+)
 def test_chosen_pictures_are_saved_as_vectors(result, tmp_path, ending, begin):
     pictures = plots.chosen(plots.pictures_of(result), ["residuals", "film"])
     paths = plots.save_all(result, tmp_path, pictures=pictures, ending=ending)

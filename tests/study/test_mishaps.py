@@ -70,7 +70,9 @@ def test_a_killed_fork_server_loses_no_case(tmp_path, monkeypatch, undisturbed):
 
 
 @ON_LINUX
-@pytest.mark.parametrize("server", ["begins", "has loaded the solver"])
+@pytest.mark.parametrize(
+    "server", ["begins", pytest.param("has loaded the solver", marks=pytest.mark.slow)]
+)
 def test_a_fork_server_killed_before_it_has_workers_loses_no_case(
     tmp_path, monkeypatch, undisturbed, server
 ):
@@ -88,7 +90,7 @@ def test_a_fork_server_killed_before_it_has_workers_loses_no_case(
 
 
 @ON_LINUX
-@pytest.mark.parametrize("forked", [True, False])
+@pytest.mark.parametrize("forked", [True, pytest.param(False, marks=pytest.mark.slow)])
 def test_workers_have_one_thread_and_forked_ones_begin_with_the_solver(forked):
     with engine_of(2, 2, forked=forked) as engine:
         engine.submit("has solver", mishaps.has_solver)

@@ -122,7 +122,7 @@ def smooth(stated, ends, nodes):
     )
 
 
-@pytest.mark.parametrize("ends", ["periodic", "mirrored"])
+@pytest.mark.parametrize("ends", [pytest.param("periodic", marks=pytest.mark.slow), "mirrored"])
 def test_the_stress_below_a_smooth_piece_is_that_below_a_line(ends):
     found, line = smooth(SLIDING, ends, 257)
     assert found.depth == pytest.approx(line.depth)
@@ -130,7 +130,7 @@ def test_the_stress_below_a_smooth_piece_is_that_below_a_line(ends):
         assert getattr(found, name) == pytest.approx(getattr(line, name), rel=2e-5), name
 
 
-@pytest.mark.parametrize("ends", ["periodic", "mirrored"])
+@pytest.mark.parametrize("ends", ["periodic", pytest.param("mirrored", marks=pytest.mark.slow)])
 def test_the_heat_below_a_smooth_piece_is_that_below_a_line(ends):
     found, line = smooth(HOT, ends, 129)
     assert found.thermal == pytest.approx(line.thermal, rel=1e-5)
