@@ -90,7 +90,7 @@ def test_forces_of_sliding_across_are_those_of_sliding_along_turned():
 def test_a_heated_film_keeps_its_temperature_while_nothing_changes():
     tables = {"spin_1": 600.0, "spin_2": -600.0, "sliding_angle": 0.5, "entrainment_speed": 1.0}
     found = solve_transient(
-        case("heat", contact_table=tables, duration=1e-4, frames=0), Options(points=49)
+        case("heat", contact_table=tables, duration=2e-4, frames=0), Options(points=33)
     ).history
     rise = found.temperature_rise
     np.testing.assert_allclose(rise, rise[0], rtol=3e-3)
@@ -190,7 +190,7 @@ def _entering(mass, inside, spacing) -> float:
 
 def test_a_run_goes_on_from_a_checkpoint_where_surfaces_spin():
     faster = APART | {"entrainment_speed": 1.0}
-    problem = case("heat", "load", contact_table=faster, duration=5e-5, frames=0)
+    problem = case("heat", "load", contact_table=faster, duration=1e-4, frames=0)
     kept = []
     whole = solve_transient(problem, Options(points=33), keep=lambda one: kept.append(one.copy()))
     again = solve_transient(problem, Options(points=33), resume=kept[len(kept) // 2])
