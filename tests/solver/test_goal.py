@@ -211,7 +211,9 @@ def values(run) -> dict[str, float]:
     }
 
 
-@pytest.mark.parametrize("shear", [None, {"law": "eyring", "stress": 5e6}])
+@pytest.mark.parametrize(
+    "shear", [pytest.param(None, marks=pytest.mark.slow), {"law": "eyring", "stress": 5e6}]
+)
 def test_pressure_traction_and_temperatures_have_error_bars_that_hold(shear):
     problem = heated_contact(0.5, shear=shear)
     found = solve(problem, Options())
@@ -273,7 +275,7 @@ def test_thinning_at_a_steep_spike_converges_with_damping(load, speed, changes):
     assert max(found.errors.central, found.errors.minimum) <= 0.02
 
 
-@pytest.mark.parametrize("load", [3.0, 100.0])
+@pytest.mark.parametrize("load", [pytest.param(3.0, marks=pytest.mark.slow), 100.0])
 def test_between_warm_bodies_the_film_hardly_depends_on_the_domain(load):
     # so slow that the oil is as warm as the bodies before it reaches the domain
     case = heated_contact(0.5).model_dump(exclude_none=True)

@@ -47,10 +47,10 @@ def changing(points: int, edges: list[float], end: float, **transient: object) -
     return solve_transient(case, Options(points=points, domain=Domain(x=tuple(edges))))
 
 
-SLOW = [pytest.param(one, marks=pytest.mark.slow) for one in ("sine", "start")]
+SLOW = [pytest.param(one, marks=pytest.mark.slow) for one in ("load", "sine", "start")]
 
 
-@pytest.mark.parametrize("name", ["load", "reverse", *SLOW])
+@pytest.mark.parametrize("name", ["reverse", *SLOW])
 def test_films_are_those_of_another_program(name):
     cited, films = CITED[name], []
     for points in (193, 385) if name in ("start", "reverse") else (129, 257):
@@ -166,9 +166,11 @@ SHAPES = {
     "shape",
     [
         "circle",
-        "conserving circle",
         "starved circle",
-        *(pytest.param(one, marks=pytest.mark.slow) for one in ("line", "starved line")),
+        *(
+            pytest.param(one, marks=pytest.mark.slow)
+            for one in ("conserving circle", "line", "starved line")
+        ),
     ],
 )
 def test_a_wedge_of_third_order_stays_so_while_the_speed_varies(shape):

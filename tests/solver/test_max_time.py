@@ -60,7 +60,14 @@ def scarce() -> ContactProblem:
     return case_from_tables(tables | {"supply": {"ratio": 0.6}})[0]
 
 
-@pytest.mark.parametrize("contact", [moes_contact(100.0, 8.0), heated_contact(), scarce()])
+@pytest.mark.parametrize(
+    "contact",
+    [
+        moes_contact(100.0, 8.0),
+        heated_contact(),
+        pytest.param(scarce(), marks=pytest.mark.slow),
+    ],
+)
 def test_the_film_of_the_grid_before_is_the_result_where_the_time_ends(cut, contact):
     seen, options = Seen(), Options(error=0.01, extrapolate=False)
     solve(contact, options, monitor=seen)

@@ -190,7 +190,10 @@ def test_a_wave_on_either_of_equal_solids_gives_the_mirrored_film():
     )
 
 
-@pytest.mark.parametrize("shear", [None, {"law": "eyring", "stress": "5 MPa"}])
+@pytest.mark.parametrize(
+    "shear",
+    [pytest.param(None, marks=pytest.mark.slow), {"law": "eyring", "stress": "5 MPa"}],
+)
 def test_a_resumed_heated_run_is_equal_bit_by_bit(shear):
     case, kept = hot(0.8, wavy=True, shear=shear, transient={"entrance": 0.6}), []
 
