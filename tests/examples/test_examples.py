@@ -97,7 +97,9 @@ def test_a_sliding_ball_is_warm_and_its_heat_is_accounted_for():
 
 
 def test_a_cooled_ball_and_disc_warm_up_with_sliding():
-    found = example("body_temperatures").main()
+    module = example("body_temperatures")
+    module.SLIDING = (0.0, 1.0)
+    found = module.main()
     for name in ("ball [degC]", "disc [degC]"):
         rise = [row[name] for row in found.values()]
         assert 40.0 < rise[0] < 41.0
@@ -126,11 +128,12 @@ def test_the_traction_of_a_warm_film_rises_peaks_and_falls():
 
 
 def test_the_film_of_a_dent_travels_at_the_mean_speed():
-    found = example("passing_dent").main(points=97)
+    module = example("passing_dent")
+    module.SLIDES = (0.0, -0.5)
+    found = module.main(points=97)
     ahead = {slide: one["thick film ahead of the dent [um]"] for slide, one in found.items()}
-    # -6.3, -48.6 and 55.0 on 257 nodes
+    # -6.3 and 55.0 on 257 nodes
     assert ahead[0.0] == pytest.approx(-6.3, abs=1.0)
-    assert ahead[0.5] == pytest.approx(-48.6, abs=3.0)
     assert ahead[-0.5] == pytest.approx(55.0, abs=3.0)
     assert found[0.0]["largest film over smooth"] == pytest.approx(1.596, rel=1e-2)
     assert found[0.0]["largest pressure over smooth"] == pytest.approx(1.016, rel=1e-2)
@@ -237,7 +240,7 @@ def test_the_rolling_friction_of_lines_hardly_depends_on_the_load():
 
 
 def test_a_tilted_roller_carries_on_one_side():
-    straight, tilted, half = example("roller").main(points=(129, 65)).values()
+    straight, tilted, half = example("roller").main(points=(65, 33)).values()
     assert straight.film.central == pytest.approx(tilted.film.central, rel=0.02)
     assert tilted.film.minimum < 0.98 * straight.film.minimum
     loads = tilted.pressure.sum(axis=1)
@@ -299,16 +302,20 @@ def test_a_film_that_turns_is_trapped_and_then_mirrored():
 
 
 def test_spin_takes_force_and_power_of_a_traction_drive_until_it_creeps_more():
-    table = example("traction_drive").main()
-    for creep, least, most in ((0.002, 0.2, 0.4), (0.01, 0.8, 0.95), (0.05, 0.98, 1.0)):
+    module = example("traction_drive")
+    module.CREEPS = (0.002, 0.05)
+    table = module.main()
+    for creep, least, most in ((0.002, 0.2, 0.4), (0.05, 0.98, 1.0)):
         assert least < table[creep, 1000.0][0] / table[creep, 0.0][0] < most
-    moments = [table[creep, 1000.0][1] for creep in (0.002, 0.01, 0.05)]
-    assert 1.0 > moments[0] > moments[1] > moments[2] > 0.0
+    moments = [table[creep, 1000.0][1] for creep in module.CREEPS]
+    assert 1.0 > moments[0] > moments[1] > 0.0
     assert table[0.002, 1000.0][2] > 1.5 * table[0.002, 0.0][2]
 
 
 def test_ridges_along_the_flow_thin_the_film_of_a_ground_tooth():
-    found = example("ground_tooth").main()
+    module = example("ground_tooth")
+    del module.SURFACES["random"]
+    found = module.main()
     central = {name: result.film.central for name, result in found.items()}
     assert central["along"] < 0.95 * central["smooth"]
     assert central["smooth"] < central["across"]

@@ -8,7 +8,7 @@ from paper.reproduce import needed_series, reproduce
 from paper.runs import Runs
 
 POINTS = 65
-NAMES = ("T1", "T2", "F3", "F7")
+NAMES = ("T1", "T2", "F3")
 SLIDING = ("T3", "C4", "C5", "P0", "P2")
 
 
