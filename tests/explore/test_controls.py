@@ -44,7 +44,17 @@ def test_a_knob_set_to_its_own_value_changes_nothing(name):
         assert low <= knob.value <= high, knob.path
 
 
-@pytest.mark.parametrize("name", templates())
+ALIKE = (
+    *("bearing", "boundary-film", "data-sheet", "dimple", "dynamics", "grease-decay", "moes"),
+    *("reversal", "rib", "rough", "stress"),
+)
+"""Templates whose choices are those of others, beside tables that state a number more."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(one, marks=[pytest.mark.slow] * (one in ALIKE)) for one in templates()],
+)
 def test_a_choice_gives_a_valid_case_or_a_sentence(name):
     case, _, items = controls_of(name)
     for choice in (item for item in items if isinstance(item, Choice)):

@@ -88,7 +88,7 @@ def test_a_non_finite_state_is_still_drawn(thermal, stalled, draw):
 
 
 @pytest.mark.parametrize("draw", OURS.values(), ids=OURS)
-@pytest.mark.parametrize("radius_y", [0.005, 0.2])
+@pytest.mark.parametrize("radius_y", [0.005, pytest.param(0.2, marks=pytest.mark.slow)])
 def test_slender_and_wide_contacts_are_drawn(draw, radius_y):
     contact = {k: v for k, v in CASE["contact"].items() if k != "radius"}
     case = {**CASE, "contact": contact | {"radius_x": 0.02, "radius_y": radius_y}}
