@@ -101,7 +101,7 @@ def test_a_slow_change_passes_through_steady_films():
 def test_the_rolling_moment_of_a_slow_change_is_that_of_the_steady_film(key):
     """It differs by a part in proportion to the rate: the film that opens holds oil back."""
     ends = []
-    for end in (7.0, 14.0):  # the change goes on, as it lifts the film at its end too
+    for end in (9.0, 18.0):  # the change goes on, as it lifts the film at its end too
         tables = {key: [[0.0, 1.0], [2.0 * end * UNIT, 1.4]]}
         run = changing(129, [-4.5, 1.5], end, **tables)
         first = run.start.rolling.moment

@@ -130,6 +130,8 @@ PHYSICS = {
 }
 ALSO = ("isothermal", "touching")
 """What wraps in each of the others too, and what takes long."""
+COLUMNS = {"touching": 129}
+"""Nodes along x where the crests of the wave need more."""
 
 
 @pytest.mark.parametrize(
@@ -143,7 +145,7 @@ def test_a_film_that_wraps_does_not_depend_on_where_its_ends_are(physics):
     """A quarter of a period on the phase is eight lines, and the wave at -60 degrees its image."""
     stated, options = (
         dict(PHYSICS[physics]),
-        Options(points=(97, 33), wedge_order=3, accuracy="tight"),
+        Options(points=(COLUMNS.get(physics, 97), 33), wedge_order=3, accuracy="tight"),
     )
     amplitude = stated.pop("surface_2", ("30 nm",))
     waves = oblique(60.0, "0 deg", *amplitude), oblique(60.0, "90 deg", *amplitude)
@@ -158,7 +160,8 @@ def test_a_film_that_wraps_does_not_depend_on_where_its_ends_are(physics):
         if first.temperature is not None:
             mean = other.temperature.mean[place]
             assert one.temperature.mean == pytest.approx(mean, abs=1e-5)
-    assert float(np.ptp(first.scaled.film[:, 48])) > 0.005 * first.film_scaled.central
+    middle = first.scaled.x.size // 2
+    assert float(np.ptp(first.scaled.film[:, middle])) > 0.005 * first.film_scaled.central
     assert moved.film.minimum == pytest.approx(first.film.minimum, rel=1e-6)
     if physics == "touching":
         assert first.touching.share > 0.1
