@@ -110,7 +110,11 @@ def test_the_heat_of_a_contact_that_spins_is_its_friction(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("others", "duration"), [(("starved",), 5e-3), (("conserving", "boundary"), 2e-3)]
+    ("others", "duration"),
+    [
+        pytest.param(("starved",), 5e-3, marks=pytest.mark.slow),
+        (("conserving", "boundary"), 2e-3),
+    ],
 )
 def test_a_slow_change_follows_the_steady_films(others, duration):
     """As well as without spin: minima of conserving films then differ by 0.25 % on these nodes.
