@@ -3,6 +3,7 @@
 from functools import cache
 
 import pytest
+from benchmarks.any_contacts import contact
 
 from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
@@ -37,6 +38,13 @@ def multigrid(problem: ContactProblem, options: Options) -> FilmSolver:
     scaled = ScaledProblem.of(problem)
     grid = finest_grid(scaled, options)
     return FilmSolver(Hierarchy.on(grid, scaled, options, FAST), SMOOTH[0])
+
+
+def mixed_line(**changes: object) -> ContactProblem:
+    """Return a flooded line, M = 29 and L = 0.5, whose asperities carry most of the load."""
+    drawn = contact(431, 30)[2]  # with a dent and scarce oil
+    smooth = drawn.surface_2.model_copy(update={"roughness": drawn.surface_1.roughness})
+    return drawn.model_copy(update={"surface_2": smooth, "supply": None} | changes)
 
 
 def rubbed_states(monkeypatch: pytest.MonkeyPatch) -> list[FilmState]:

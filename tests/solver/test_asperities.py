@@ -37,7 +37,7 @@ from tehl.solver.physics.cavity import oil_flow
 from tehl.solver.steady import try_strategies
 from tests.reference import CLOSE, heated_contact, moes_contact
 from tests.reference import touching_contact as rough
-from tests.solver.runs import multigrid
+from tests.solver.runs import mixed_line, multigrid
 
 # ---- laws
 
@@ -641,6 +641,22 @@ def test_a_contact_that_runs_dry_rests_on_its_asperities():
     assert found.load_sharing.share == pytest.approx(1.0, abs=2e-3)
     assert found.pressure.max() == 0.0
     assert "the oil fills the gap nowhere" in as_text(found)
+
+
+def test_oil_that_does_not_fill_the_gap_of_a_line_carries_nothing():
+    """At the end of the film the clipped oil left asperities no load, and all cycles diverged."""
+    drawn = any_contacts.contact(431, 30)[2].supply
+    flooded, scarce, scarcer = (
+        solve(mixed_line(supply=supply), Options(error=0.02))
+        for supply in (None, drawn, drawn.model_copy(update={"ratio": 0.3}))
+    )
+    assert 0.8 < flooded.load_sharing.share < 0.9
+    assert flooded.errors.central < 0.02
+    for dry in (scarce, scarcer):
+        assert dry.pressure.max() == 0.0
+        assert dry.load_sharing.share == pytest.approx(1.0, abs=1e-4)
+    assert scarcer.film_scaled.central == pytest.approx(scarce.film_scaled.central, rel=1e-4)
+    assert scarce.film_scaled.central < 0.97 * flooded.film_scaled.central
 
 
 def test_summits_that_do_not_touch_have_no_spots():

@@ -439,5 +439,7 @@ def take_step(state: Coarse, system: CoarseSystem, work: Work, count: int, longe
         if touches and work.dry[here]:
             state.asperity[here] += scale * work.rhs[row]
             continue
-        state.p[here] = max(state.p[here] + scale * work.rhs[row], 0.0)
+        changed = state.p[here] + scale * work.rhs[row]
+        # asperities may give back what the oil loses of the sum
+        state.p[here] = changed if touches else max(changed, 0.0)
     return scale

@@ -75,9 +75,19 @@ class AsperityTable:
         return found
 
     def pressure(self, separation: Array) -> Array:
-        """Return the pressure of the asperities at separations of the mean planes [-]."""
-        curve = self.laws.pressure[:, 0]
-        return np.asarray(np.interp(separation, self.separations, curve, right=0.0))
+        """Return the pressure of the asperities at separations of the mean planes [-].
+
+        Interpolated as by `tehl.kernels.summits.touch`.
+        """
+        (first, step, apart), rows = self.laws.grid, self.laws.pressure
+        x = (np.asarray(separation) - first) / step
+        touching = (x < len(rows) - 2) & (separation < apart)  # not of NaN
+        x = np.where(touching, x, 0.0)
+        row, below = np.maximum(x, 0.0).astype(int), np.minimum(x, 0.0)
+        t, start, rise = np.maximum(x, 0.0) - row, rows[row, 0], rows[row, 1]
+        end, fall = rows[row + 1, 0], rows[row + 1, 1]
+        low, high = start + t * (rise + 2.0 * start), end + (1.0 - t) * (2.0 * end - fall)
+        return np.where(touching, (1.0 - t) ** 2 * low + t**2 * high + below * rise, 0.0)
 
     def separation(self, gap: float) -> float:
         """Return the separation of the mean planes at a mean gap [-]."""

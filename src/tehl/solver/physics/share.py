@@ -171,6 +171,14 @@ class OilAlone:
         del level
         return None
 
+    def lacking(self, level: Carried) -> Array | None:
+        """Return what asperities lack of their pressure at the present separation [-].
+
+        It is theirs alone at nodes without oil; None where no asperities follow a law there.
+        """
+        del level
+        return None
+
     def widening(self, level: Carried) -> Array:
         """Return d eps/dH by the separation H, ``grid.shape`` [-]."""
         film, floor = level.film, self.equations.floor

@@ -90,6 +90,10 @@ class Summits(OilAlone):
         film = level.film
         return self.table.friction * film.asperity, np.ones(film.p.shape)
 
+    def lacking(self, level: Carried) -> Array | None:
+        """Return what asperities lack of their pressure at the present separation [-]."""
+        return self.table.pressure(level.separation) - level.film.asperity
+
     def widening(self, level: Carried) -> Array:
         """Return d eps/dH by the law of the channel."""
         film = level.film
