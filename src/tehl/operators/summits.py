@@ -77,8 +77,13 @@ class AsperityTable:
     def pressure(self, separation: Array) -> Array:
         """Return the pressure of the asperities at separations of the mean planes [-].
 
-        Interpolated as by `tehl.kernels.summits.touch`.
+        Interpolated linearly: that of a start.
         """
+        curve = self.laws.pressure[:, 0]
+        return np.asarray(np.interp(separation, self.separations, curve, right=0.0))
+
+    def carried(self, separation: Array) -> Array:
+        """Return the same, interpolated as by `tehl.kernels.summits.touch`."""
         (first, step, apart), rows = self.laws.grid, self.laws.pressure
         x = (np.asarray(separation) - first) / step
         touching = (x < len(rows) - 2) & (separation < apart)  # not of NaN

@@ -92,7 +92,7 @@ class Summits(OilAlone):
 
     def lacking(self, level: Carried) -> Array | None:
         """Return what asperities lack of their pressure at the present separation [-]."""
-        return self.table.pressure(level.separation) - level.film.asperity
+        return self.table.carried(level.separation) - level.film.asperity
 
     def widening(self, level: Carried) -> Array:
         """Return d eps/dH by the law of the channel."""
