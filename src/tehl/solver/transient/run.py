@@ -177,7 +177,7 @@ class Run:
         again = not attempt.reached or status.cause == "error_not_reached"
         if not status.converged and again and options.accuracy != "tight":
             attempt, result = solve(options, until=end)
-        attempt, result = self._on_fewer_nodes(attempt, result, tight, solve)
+        attempt, result = self._on_fewer_nodes(attempt, result, tight, partial(solve, until=end))
         result = result.but(options=options)
         if not result.status.converged:
             message = f"The steady film at time zero did not converge: {result.status.message}"
