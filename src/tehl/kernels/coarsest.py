@@ -75,7 +75,8 @@ class CoarseSystem(NamedTuple):
     ``residual`` (ny, nx) of the Reynolds equation, ``influence`` (n, n), ``frozen`` (ny, nx) of 0
     and 1, ``area`` (ny, nx) that each node stands for, ``lift`` (motions, n), the film by each
     rigid motion, what is ``missing`` of the load and its moment, (motions,), and the largest change
-    of the film by rigid motions with asperities.
+    of the film by rigid motions with asperities. A step takes the oil of wet nodes down to
+    ``lowest`` at most.
     """
 
     residual: Array
@@ -86,6 +87,7 @@ class CoarseSystem(NamedTuple):
     missing: Array
     nearest: float
     yielding: float
+    lowest: float
 
 
 class Work(NamedTuple):
@@ -439,7 +441,5 @@ def take_step(state: Coarse, system: CoarseSystem, work: Work, count: int, longe
         if touches and work.dry[here]:
             state.asperity[here] += scale * work.rhs[row]
             continue
-        changed = state.p[here] + scale * work.rhs[row]
-        # asperities may give back what the oil loses of the sum
-        state.p[here] = changed if touches else max(changed, 0.0)
+        state.p[here] = max(state.p[here] + scale * work.rhs[row], system.lowest)
     return scale

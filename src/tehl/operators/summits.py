@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline
 
 from tehl.base.typing import Array
 from tehl.contact.problem import ContactProblem
@@ -84,15 +85,11 @@ class AsperityTable:
 
     def carried(self, separation: Array) -> Array:
         """Return the same, interpolated as by `tehl.kernels.summits.touch`."""
-        (first, step, apart), rows = self.laws.grid, self.laws.pressure
-        x = (np.asarray(separation) - first) / step
-        touching = (x < len(rows) - 2) & (separation < apart)  # not of NaN
-        x = np.where(touching, x, 0.0)
-        row, below = np.maximum(x, 0.0).astype(int), np.minimum(x, 0.0)
-        t, start, rise = np.maximum(x, 0.0) - row, rows[row, 0], rows[row, 1]
-        end, fall = rows[row + 1, 0], rows[row + 1, 1]
-        low, high = start + t * (rise + 2.0 * start), end + (1.0 - t) * (2.0 * end - fall)
-        return np.where(touching, (1.0 - t) ** 2 * low + t**2 * high + below * rise, 0.0)
+        (first, step, apart), (values, slopes) = self.laws.grid, self.laws.pressure.T
+        law = CubicHermiteSpline(self.separations, values, slopes / step)
+        inside = np.maximum(separation, first)  # below the first row it goes on linearly
+        found = law(inside) + (separation - inside) * slopes[0] / step
+        return np.where(separation < min(apart, self.separations[-2]), found, 0.0)  # not of NaN
 
     def separation(self, gap: float) -> float:
         """Return the separation of the mean planes at a mean gap [-]."""

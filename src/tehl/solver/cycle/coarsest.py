@@ -27,7 +27,7 @@ exceed by little even when dry; and most times."""
 LONGEST_STEP, LONGEST_CARRIED = 0.3, 0.3
 """Largest change of pressure in a Newton step, in Hertz pressures, and largest change of that of
 asperities by their slope: they grow as an exponential of the film. Without it steps of a line with
-0.8 of the load on them do not converge (M = 29, L = 0.5); with 0.1 and 0.3 they take as many."""
+0.85 of the load on them do not converge (M = 29, L = 0.5); with 0.1 to 0.3 they do."""
 CONTRACTION, SMALL_REPEATED, MOST_REPEATED = 0.5, 0.15, 4
 """Steps with the matrix of an earlier state: over the one before, above which that is too far away,
 over the first one, below which they have converged, and most after the first."""
@@ -157,6 +157,7 @@ class CoarsestSolver:
             * (1.0 if answer is None else answer.lift.ravel()),
             missing=level.missing(),
             yielding=0.0 if answer is None else answer.stiffness,
+            lowest=0.0,
             nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
         )
 
@@ -192,12 +193,11 @@ class CoarsestSolver:
         lose their oil until none of the others has a negative pressure (policy iteration).
         """
         system, emptied = self._system(), np.zeros(self.level.film.p.size, bool)
-        known = self._factored(state, system)
-        if self._lacking() is None:
-            return known, emptied
-        for _ in range(MOST_EMPTIED):
-            system, free = self._system(), known.work.free[: known.size]
-            step, moved = self._moved(known, self._solved(known, system, emptied), system.lift)
+        lacking, known = self._lacking(), self._factored(state, system)
+        for _ in range(0 if lacking is None else MOST_EMPTIED):
+            free = known.work.free[: known.size]
+            found = self._solved(known, system, lacking, emptied)
+            step, moved = self._moved(known, found, system.lift)
             oil = (state.p + step + state.stiffness * moved)[free]
             more = free[(oil < 0.0) & (known.work.dry[free] == 0)]
             if more.size == 0:
@@ -207,15 +207,19 @@ class CoarsestSolver:
         return known, emptied
 
     def _solved(
-        self, known: Factored, system: CoarseSystem, emptied: BoolArray | None = None
+        self,
+        known: Factored,
+        system: CoarseSystem,
+        lacking: Array | None,
+        emptied: BoolArray | None,
     ) -> Array:
         """Return the solution of a linearised system: changes of free nodes and rigid motions."""
-        film, free = self.level.film, known.work.free[: known.size]
-        lacking, dry = self._lacking(), known.work.dry[free]
-        alone = np.zeros(free.size) if lacking is None else lacking.ravel()[free]
+        free, oil = known.work.free[: known.size], self.level.film.p.ravel()
+        alone = np.zeros(oil.size) if lacking is None else lacking.ravel()
         if emptied is not None:
-            alone -= np.where(emptied, film.p.ravel(), 0.0)[free]
-        rhs = np.append(np.where(dry, alone, system.residual[free]), system.missing)
+            alone = alone - np.where(emptied, oil, 0.0)
+        dry = known.work.dry[free] > 0
+        rhs = np.append(np.where(dry, alone[free], system.residual[free]), system.missing)
         found, _ = dgetrs(known.factors, known.pivots, rhs, trans=1)
         return np.asarray(found)
 
@@ -231,13 +235,15 @@ class CoarsestSolver:
         before, rigid = level.pressure.copy(), level.rigid.copy()
         carried = film.p.copy(), film.asperity.copy()
         used = known.size + rigid.size
-        work.rhs[:used] = self._solved(known, system, emptied)
+        lacking, longest = self._lacking(), LONGEST_STEP
+        found = self._solved(known, system, lacking, emptied)
+        if lacking is not None:
+            system = system._replace(lowest=level.share.lowest)
+            longest = self._longest(known, found, system.lift)
+        work.rhs[:used] = found
         state = known.state._replace(p=film.p.ravel(), asperity=film.asperity.ravel())
-        longest = self._longest(known, work.rhs[:used], system.lift)
         part = take_step(state, system, work, known.size, longest)
-        if self._lacking() is None:
-            np.maximum(film.p, 0.0, out=film.p)
-        elif emptied is not None and emptied.any():
+        if emptied is not None and emptied.any():
             at = emptied.reshape(film.p.shape)
             film.p[at] -= part * carried[0][at]
             film.asperity[at] += part * carried[0][at]
@@ -272,8 +278,6 @@ class CoarsestSolver:
 
     def _longest(self, known: Factored, found: Array, lift: Array) -> float:
         """Return the largest change of pressure that a step may take, as `LONGEST_STEP`."""
-        if self._lacking() is None:
-            return LONGEST_STEP
         step, moved = self._moved(known, found, lift)
         taken = np.abs(self.level.film.stiffness.ravel() * moved).max()
         return min(LONGEST_STEP, LONGEST_CARRIED * np.abs(step).max() / max(taken, 1e-300))
