@@ -307,3 +307,13 @@ def test_a_heated_film_that_slides_has_bars_for_temperature_and_traction():
     assert abs(finer.temperature_rise.max() - rise.value) <= rise.uncertainty
     assert traction.value < 0
     assert abs(finer.traction.min() - traction.value) <= traction.uncertainty
+
+
+def test_runs_on_chosen_nodes_are_compared_with_runs_of_the_same_order():
+    """Those on stated nodes had a wedge of second order: bars of 3.3 and 8 %."""
+    given = moes_contact(20.0, 8.0, radius_ratio=0.5).model_dump(exclude_none=True)
+    change = {"load": [[0.0, 1.0], [2e-5, 1.1]], "duration": 2e-5, "frames": 0}
+    case = ContactProblem.model_validate(given | {"transient": change})
+    bars = certify_transient(case, Options(error=0.02)).uncertainty
+    for name in ("film_central_least", "film_minimum"):
+        assert 0.0 < bars[name].uncertainty < 0.01 * bars[name].value
