@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tehl.base.units import Direction, quantity
-from tehl.contact.bodies import Motion, Radii, reduced_radii, reduced_radius
+from tehl.contact.bodies import Motion, reduced_radius
 from tehl.roughness import Smooth
 
 
@@ -28,11 +28,6 @@ def test_flat_on_flat_is_rejected():
 def test_surfaces_that_do_not_curve_apart_are_rejected(first: float, second: float):
     with pytest.raises(ValueError, match="do not curve apart"):
         reduced_radius(first, second)
-
-
-def test_both_directions_are_reduced():
-    roller = reduced_radii(Radii(x=0.01, y=0.1), Radii(x=math.inf, y=math.inf))
-    assert (roller.x, roller.y) == (pytest.approx(0.01), pytest.approx(0.1))
 
 
 @pytest.mark.parametrize("slip", [-2.0, -0.25, 0.0, 1.0, 3.0])

@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 import tehl
 from tehl.api.problem import case_from_tables, read_case
 from tehl.base.errors import InputError
+from tehl.base.lists import lines_of_frame
 from tehl.cli import application
 from tehl.estimate.settled import settled
 from tehl.io.templates import template_text
@@ -114,7 +115,7 @@ def test_rows_may_be_numbered(tmp_path, template):
     path.write_text("no,load [N]\n1,20\n2,30\n")
     assert [case.problem.title for case in read_contacts(path, template).cases] == ["1", "2"]
     frame = pd.DataFrame({"id": [7, 8], "load [N]": [20.0, 30.0]})
-    found = contacts_of(frame, *template_tables(template))
+    found = contacts_of(lines_of_frame(frame), *template_tables(template))
     assert [case.problem.title for case in found.cases] == ["7", "8"]
 
 

@@ -156,8 +156,7 @@ def lines_of(path: Path, what: str = "list of cases") -> list[tuple[int, list[An
     ending, shown = path.suffix.lower(), shortened(path)
     if ending in (".toml", ".nc"):
         raise InputError(f"{shown} is not a {what}: expected .csv, .xlsx or .parquet")
-    if ending in _PACKAGES:
-        check_package(*_PACKAGES[ending], path)
+    _check_package(ending, path)
     kind, read = _READERS.get(ending, (f"a {what}", _csv))
     try:
         if path.stat().st_size > LARGEST_LIST:
@@ -274,28 +273,13 @@ def check_format(path: Path, endings: Sequence[str], what: str) -> None:
     if ending not in endings:
         known = " or ".join(endings)
         raise InputError(f"output {path}: format not supported; {what} ends in {known}")
-    if ending in _PACKAGES:
-        check_package(*_PACKAGES[ending], path)
+    _check_package(ending, path)
 
 
-def check_package(package: str, extra: str, path: Path) -> None:
-    """Check that a package for a format is installed.
-
-    Parameters
-    ----------
-    package : str
-        Name by which it is imported.
-    extra : str
-        Extra of this package that installs it.
-    path : Path
-        File that needs it, named by the message.
-
-    Raises
-    ------
-    InputError
-        If it is missing; the message has the command that installs it.
-    """
-    if find_spec(package) is None:
+def _check_package(ending: str, path: Path) -> None:
+    """Raise an InputError if the package that a format needs is missing."""
+    package, extra = _PACKAGES.get(ending, (None, None))
+    if package is not None and find_spec(package) is None:
         raise InputError(f'{path}: needs {package}; install it with pip install "tehl[{extra}]"')
 
 

@@ -8,7 +8,6 @@ from typing import Any, NamedTuple, TypeVar, get_args
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from tehl.base.errors import InputError
 from tehl.base.keys import (
     COMPARISONS,
     KeyPath,
@@ -92,21 +91,6 @@ def describe(error: ValidationError, data: object, model: Model, prefix: str = "
     mistake = _Mistake(name, path, first, models_at(model, path), table)
     sentence = _SENTENCES.get(first["type"], _pydantic_sentence)
     return _of_heading(mistake) or sentence(mistake)
-
-
-def of_call(error: ValidationError, values: Mapping[str, Any], model: Model) -> InputError:
-    """Return the first mistake of a call ``model(**values)`` in Python as an error to raise.
-
-    Parameters
-    ----------
-    error : ValidationError
-        What pydantic raised.
-    values : Mapping
-        Arguments of the call, quoted by the message.
-    model : Model
-        The class that was called; its name replaces the path of the table.
-    """
-    return InputError(describe(error, values, model, model.__name__))
 
 
 # ---- where the mistake is

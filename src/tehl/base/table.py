@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo
 
-from tehl.base.mistakes import of_call
+from tehl.base.errors import InputError
+from tehl.base.mistakes import describe
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
@@ -22,7 +23,7 @@ class _OneSentence(ModelMetaclass):
             return super().__call__(*args, **values)
         except ValidationError as error:
             model: Any = self
-            raise of_call(error, values, model) from None
+            raise InputError(describe(error, values, model, model.__name__)) from None
 
 
 class Table(BaseModel, metaclass=_OneSentence):

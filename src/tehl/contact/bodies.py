@@ -72,22 +72,6 @@ def reduced_radius(first: float, second: float) -> float:
     return 1.0 / curvature
 
 
-def reduced_radii(first: Radii, second: Radii) -> Radii:
-    """Return the reduced radii of two surfaces.
-
-    Parameters
-    ----------
-    first, second : Radii
-        Radii along x and y of each surface [m], with the signs of :func:`reduced_radius`.
-
-    Raises
-    ------
-    ValueError
-        If the surfaces do not curve apart along x or along y.
-    """
-    return Radii(x=reduced_radius(first.x, second.x), y=reduced_radius(first.y, second.y))
-
-
 def direction(angle: float) -> tuple[float, float]:
     """Return cosine and sine of an angle [rad]; those of quarter turns, to rounding, are exact."""
     quarters = angle / (0.5 * math.pi)

@@ -6,7 +6,7 @@ from typing import Annotated, Self
 from pydantic import AfterValidator
 
 from tehl.base.table import Table
-from tehl.contact.bodies import Motion, Radii, reduced_radii, reduced_radius
+from tehl.contact.bodies import Motion, Radii, reduced_radius
 from tehl.contact.boundary_contact import ContactFilm
 from tehl.contact.dynamics import Dynamics
 from tehl.contact.heat import HOT_LOADING, FilmEnergy, Thermal, rubbing_parts
@@ -66,9 +66,10 @@ class LubricatedPair(Table):
             return self.contact.radii
         if first is None or second is None:
             raise ValueError("no radii")
+        x = reduced_radius(first.x, second.x)
         if self.contact.has_lines:
-            return Radii(x=reduced_radius(first.x, second.x), y=math.inf)
-        return reduced_radii(first, second)
+            return Radii(x=x, y=math.inf)
+        return Radii(x=x, y=reduced_radius(first.y, second.y))
 
     @property
     def radius_x(self) -> float:

@@ -108,9 +108,7 @@ class CaseText:
         document = tomlkit.parse(self.text)  # takes longer than all changes
         for path, value in values.items():
             _change(document, path, value)
-        self._take(tomlkit.dumps(document))
-
-    def _take(self, text: str) -> None:
+        text = tomlkit.dumps(document)
         self.tables, self.text = tables_of_text(text), text
 
 

@@ -12,8 +12,6 @@ from tehl.explore.tab import Tab
 
 _SLIDER_PLACES, _EDGE_PLACES = 200, 2
 """Places of a slider, and those at either end from which its range moves on."""
-_THROTTLE = 0.03
-"""Seconds between two places of a moving slider."""
 
 
 class ControlPanel:
@@ -92,7 +90,7 @@ class KnobRow(Row):
             self.slider = ui.slider(min=0, max=_SLIDER_PLACES, step=1, value=self._place())
             self.slider.props(f'aria-label="{knob.label}" dense').classes("knob-slider")
             self.slider.on(
-                "update:model-value", self._moved, [None], throttle=_THROTTLE, leading_events=True
+                "update:model-value", self._moved, [None], throttle=0.03, leading_events=True
             )
             self.slider.on("change", self._released, [None])
             super().__init__()

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator, Mapping
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
@@ -61,7 +62,7 @@ class Files:
         InputError
             If a file is neither uploaded nor that of the case given on the command line.
         """
-        found: dict[str, Any] = _copy(tables)
+        found = deepcopy(dict(tables))
         for place, name in named_files(tables):
             node: Any = found
             for part in place[:-1]:
@@ -97,9 +98,3 @@ def named_files(node: Any, place: Place = ()) -> Iterator[tuple[Place, str]]:
             yield here, value
         elif isinstance(value, Mapping | list):
             yield from named_files(value, here)
-
-
-def _copy(node: Any) -> Any:
-    if isinstance(node, Mapping):
-        return {key: _copy(value) for key, value in node.items()}
-    return [_copy(value) for value in node] if isinstance(node, list) else node

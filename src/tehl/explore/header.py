@@ -23,8 +23,6 @@ FILES = {
 THEME = "tehl-theme"
 """Cookie of the browser with the choice of dark or light."""
 IS_DARK = "document.body.classList.contains('body--dark')"
-LONGEST_REPLY = 20.0
-"""Seconds for a browser that draws to reply."""
 PICTURES = {
     "film": "film",
     "pressure": "pressure",
@@ -91,7 +89,7 @@ class Header(JobPanel):
         """Change between dark and light; a cookie of the browser keeps the choice."""
         is_dark = self.dark.value
         if is_dark is None:  # as the system has it, which only the browser knows
-            is_dark = await ui.run_javascript(IS_DARK, timeout=LONGEST_REPLY)
+            is_dark = await ui.run_javascript(IS_DARK, timeout=20.0)  # while it draws
         self.dark.value = not is_dark
         theme = "light" if is_dark else "dark"
         ui.run_javascript(

@@ -260,9 +260,9 @@ def _stages(options: Options, found: Explanation, *, quick: bool) -> Iterator[tu
     """Yield the options of the grids to show, and whether they are those of the case."""
     stated = options.points != "auto"
     finest = min(options.shape if stated else found.expected_shape)
-    for nodes in (QUICK_NODES,) if quick else (MIDDLE_NODES,):
-        if nodes < finest:
-            yield options.model_copy(update={"points": nodes, "error": None}), False
+    nodes = QUICK_NODES if quick else MIDDLE_NODES
+    if nodes < finest:
+        yield options.model_copy(update={"points": nodes, "error": None}), False
     if not quick or finest <= QUICK_NODES:
         yield options, True
 

@@ -80,12 +80,12 @@ class MainNumbers:
 
 def _in_brief(one: Number) -> str:
     value = "" if one.value is None else f"{_rounded(one.value, 3)} {escape(one.unit)}"
-    return f"<span><i>{_symbol(one.symbol)}</i> {value or '–'}</span>"
+    return f"<span><i>{_marked(one.symbol)}</i> {value or '–'}</span>"
 
 
 def number_html(one: Number, other: Number | None) -> str:
     """Return a number with its error bar, its formulas and the pinned one."""
-    name = f'<span class="name">{escape(one.name)}</span> <i>{_symbol(one.symbol)}</i>'
+    name = f'<span class="name">{escape(one.name)}</span> <i>{_marked(one.symbol)}</i>'
     if one.value is None:
         return f'<div class="head">{name}</div><div class="remark">{escape(one.remark)}</div>'
     parts = [f'<div class="head">{name}</div>']
@@ -129,13 +129,6 @@ def _rounded(value: float, digits: int) -> str:
 def _marked(words: str) -> str:
     """Return words with their indices set low."""
     return re.sub(r"_(\w+)", r"<sub>\1</sub>", escape(words))
-
-
-def _symbol(symbol: str) -> str:
-    base, _, below = symbol.partition("_")
-    if "/" in symbol:
-        return f"{escape(base)}<sub>{escape(below[0])}</sub>{escape(below[1:])}"
-    return f"{escape(base)}<sub>{escape(below)}</sub>" if below else escape(base)
 
 
 def _change(one: Number, other: Number | None) -> str:

@@ -27,10 +27,6 @@ from tehl.explore.worker import Solver
 STYLE = Path(__file__).with_name("style.css")
 SCRIPT = Path(__file__).with_name("page.js")
 _MEASURE = """(size) => emit([size.width, window.innerHeight])"""
-_SECOND_WORKER_SECONDS = 10.0
-"""Seconds after which the second worker starts."""
-_HEIGHT_BESIDE_PICTURE = 250.0
-"""Pixels of the window above and below a picture."""
 
 
 class Page:
@@ -47,9 +43,7 @@ class Page:
 
         def warmed(message: Any) -> None:
             if isinstance(message, End):  # the second worker starts once the first one is warm
-                loop.call_later(
-                    _SECOND_WORKER_SECONDS, background.submit, "warm", Warm(), lambda _: None
-                )
+                loop.call_later(10.0, background.submit, "warm", Warm(), lambda _: None)
 
         live.submit("warm", Warm(), warmed)
 
@@ -137,7 +131,8 @@ class TabPage:
 
     def _resized(self, event: Any) -> None:
         width, window = event.args[0] if isinstance(event.args[0], list) else event.args
-        height = max(320.0, min(float(window) - _HEIGHT_BESIDE_PICTURE, 0.95 * float(width)))
+        # 250 pixels of the window are above and below a picture
+        height = max(320.0, min(float(window) - 250.0, 0.95 * float(width)))
         for panel in (self.pictures, self.curves, self.movie):
             panel.resize(float(width), height)
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from tehl.api.problem import ContactProblem
 from tehl.base.atomic import replacing
-from tehl.base.lists import check_format
+from tehl.base.lists import check_format, lines_of_frame
 from tehl.base.units import percentage
 from tehl.base.wording import grid_size
 from tehl.result.quantity import Quantity
@@ -252,7 +252,7 @@ def solve_contacts(
         base, folder = template.model_dump(mode="json", exclude_unset=True), None
     else:
         base, folder = template_tables(None if template is None else Path(template))
-    contacts = contacts_of(frame, base, folder)
+    contacts = contacts_of(lines_of_frame(frame), base, folder)
     with closing(opened(store)) as kept:
         run(contacts.cases, kept, jobs=jobs, monitor=monitor)
         lines = list(answers(contacts, kept))

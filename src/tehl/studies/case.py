@@ -23,7 +23,6 @@ Scalar = float | int | str | bool | None
 
 _SOLVED = ("converged", "not_converged", "diverged", "stalled")
 """Statuses that come with fields."""
-"""Unit by the last part of the name of a number."""
 _NOT_NUMBERS = ("title", "status", "cause", "message", "hint", "settings")
 """Keys of a summary that a row holds elsewhere."""
 _PARTS_OF_ESTIMATES = ("value", "uncertainty", "discretisation", "domain", "values")

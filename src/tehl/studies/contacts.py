@@ -8,12 +8,12 @@ What a row does not state is that of the template.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tehl.api.problem import case_from_tables
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
-from tehl.base.lists import Doubtful, Spelling, lines_of, lines_of_frame, spelling_of, value_of
+from tehl.base.lists import Doubtful, Spelling, lines_of, spelling_of, value_of
 from tehl.io.case import changed, tables_of_text, toml_tables
 from tehl.io.templates import template_text
 from tehl.studies.case import Case
@@ -26,10 +26,6 @@ from tehl.studies.headings import (
     column_of,
     unit_of,
 )
-
-if TYPE_CHECKING:
-    import pandas as pd
-
 
 TEMPLATE = "ball-on-disc"
 """The template of a list that has none."""
@@ -116,7 +112,7 @@ def read_contacts(path: Path, template: Path | None = None) -> Contacts:
     base, folder = template_tables(template)
     lines = lines_of(path, "list of contacts")
     try:
-        return replace(_contacts(lines, base, folder), spelling=spelling_of(path))
+        return replace(contacts_of(lines, base, folder), spelling=spelling_of(path))
     except InputError as error:
         raise InputError(f"{shortened(path)}: {error}") from None
 
@@ -135,9 +131,20 @@ def template_tables(template: Path | None) -> tuple[dict[str, Any], Path | None]
         raise InputError(f"template {shortened(template)}: {error}") from None
 
 
-def _contacts(
+def contacts_of(
     lines: list[tuple[int, list[Any]]], base: dict[str, Any], folder: Path | None
 ) -> Contacts:
+    """Return the list of contacts of lines.
+
+    Parameters
+    ----------
+    lines : list of (int, list)
+        Numbers and cells of the rows, headings with units first.
+    base : dict
+        Tables of a case that each row completes.
+    folder : Path or None
+        Where relative paths of measured surfaces begin.
+    """
     columns, body = columns_and_rows(lines)
     rows = tuple(_listed(number, cells, columns, base, folder) for number, cells in body)
     return Contacts(columns=tuple(columns), rows=rows)
@@ -182,21 +189,6 @@ def _with_unit(column: Column, unit: str) -> str:
     """Return the heading with a unit that stands below it: answers have it in one row."""
     stated = not column.heading or column.unit or not unit
     return column.heading if stated else f"{column.heading} [{unit.strip('[]() ')}]"
-
-
-def contacts_of(frame: "pd.DataFrame", base: dict[str, Any], folder: Path | None) -> Contacts:
-    """Return the list of contacts of a frame.
-
-    Parameters
-    ----------
-    frame : DataFrame
-        A column per quantity, with a unit in its heading; rows are numbered from 1.
-    base : dict
-        Tables of a case that each row completes.
-    folder : Path or None
-        Where relative paths of measured surfaces begin.
-    """
-    return _contacts(lines_of_frame(frame), base, folder)
 
 
 def stated_in(columns: Sequence[Column], cells: Sequence[Any]) -> dict[str, Any]:

@@ -227,23 +227,19 @@ def end(workers: list[WorkerProcess]) -> None:
 def undisturbed() -> Iterator[None]:
     """Give the environment of workers to what is started, and keep Ctrl-C from it."""
     with _STARTING:
-        yield from _undisturbed()
-
-
-def _undisturbed() -> Iterator[None]:
-    before = {name: os.environ[name] for name in _ENVIRONMENT if name in os.environ}
-    os.environ.update(_ENVIRONMENT)
-    if sys.platform != "win32":
-        resource_tracker.ensure_running()  # unblocks the signal when it starts
-        mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
-    try:
-        yield
-    finally:
+        before = {name: os.environ[name] for name in _ENVIRONMENT if name in os.environ}
+        os.environ.update(_ENVIRONMENT)
         if sys.platform != "win32":
-            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
-        for name in _ENVIRONMENT:
-            del os.environ[name]
-        os.environ.update(before)
+            resource_tracker.ensure_running()  # unblocks the signal when it starts
+            mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+        try:
+            yield
+        finally:
+            if sys.platform != "win32":
+                signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+            for name in _ENVIRONMENT:
+                del os.environ[name]
+            os.environ.update(before)
 
 
 class _Cluster(Engine):

@@ -234,9 +234,5 @@ def write_sheet(table: "pd.DataFrame", path: Path, columns: Sequence[str]) -> No
         if path.suffix.lower() == ".csv":
             found.to_csv(temporary, index=False)
         else:
-            made = temporary.with_suffix(".xlsx")  # pandas chooses the writer by the ending
-            try:
-                found.to_excel(made, index=False, engine="openpyxl")
-                made.replace(temporary)
-            finally:
-                made.unlink(missing_ok=True)
+            with temporary.open("wb") as file:  # pandas rejects a path of another ending
+                found.to_excel(file, index=False, engine="openpyxl")

@@ -82,7 +82,7 @@ class OilFit:
         ]
         lines += [f"  {line}" for line in aligned([head, *rows])]
         for kind, noise in self.noise.items():
-            lines.append(f"  noise of {kind}, estimated: {noise_text(kind, noise)}")
+            lines.append(f"  noise of {kind}, estimated: {_noise_text(kind, noise)}")
         if not self.noise or len(self.noise) < len(counts):
             lines.append(f"  scatter over the stated noise: {math.sqrt(self.scatter):.2f}")
         lines += [f"  note: {text}" for text in self.remarks]
@@ -124,16 +124,8 @@ class OilFit:
         }
 
 
-def noise_text(kind: str, noise: float) -> str:
-    """Return an estimated noise as people read it.
-
-    Parameters
-    ----------
-    kind : str
-        Decides whether it is a share of the value.
-    noise : float
-        That share, or in SI.
-    """
+def _noise_text(kind: str, noise: float) -> str:
+    """Return an estimated noise, a share or in SI, as people read it."""
     one = KINDS[kind]
     return percentage(noise) if one.is_relative else f"{noise / one.scale:.2g} {one.unit}".strip()
 
