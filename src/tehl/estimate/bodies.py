@@ -12,12 +12,8 @@ from tehl.base.errors import TehlError
 from tehl.base.typing import Array, np
 from tehl.contact.problem import HOTTEST_TEMPERATURE, ContactProblem
 
-HEAT_TOLERANCE, KELVIN_TOLERANCE = 1e-6, 1e-7
-"""Heat in less heat out over heat in [-], or error of a temperature [K], that ends the balance."""
-FIRST_WARMING, MOST_WARMING = 2.0, 30.0
-"""Change of temperature for the first slopes, and largest change in a step [K]."""
-MOST_STEPS, MOST_HALVED_STEPS = 20, 3
-"""Steps after which the balance has failed, and halvings of a step whose film fails."""
+MOST_STEPS = 20
+"""Steps after which the balance has failed."""
 
 Heats = Callable[[float, float], tuple[float, float] | None]
 """Heat into both bodies at their temperatures [W]; None where no film is found."""
@@ -59,7 +55,7 @@ def balanced(problem: ContactProblem, heats: Heats) -> tuple[float, float]:
     _, left = excess.after(temperatures, np.zeros(2))
     slopes: Array = np.diag([-1.0, -1.0])
     for body in np.nonzero(excess.free & (not excess.is_settled))[0].tolist():
-        step, other = excess.after(temperatures, FIRST_WARMING * np.eye(2)[body])
+        step, other = excess.after(temperatures, 2.0 * np.eye(2)[body])  # kelvin
         slopes[:, body] = (other - left) / step[body]
         excess.is_settled = False
     for _ in range(MOST_STEPS):
@@ -69,7 +65,7 @@ def balanced(problem: ContactProblem, heats: Heats) -> tuple[float, float]:
         if not float(newton @ left) > 0.0:  # the heat rises faster than it is passed on
             newton = np.where(left > 0.0, HOTTEST_TEMPERATURE, left)
         excess.aim = temperatures + newton
-        newton *= min(1.0, MOST_WARMING / float(np.abs(newton).max()))
+        newton *= min(1.0, 30.0 / float(np.abs(newton).max()))  # at most 30 K in a step
         step, now = excess.after(temperatures, newton)
         slopes += np.outer(now - left - slopes @ step, step) / float(step @ step)
         temperatures += step
@@ -94,7 +90,7 @@ class _Excess:
 
     def after(self, temperatures: Array, step: Array) -> tuple[Array, Array]:
         """Return the step from ``temperatures``, halved until a film is found, and the excess."""
-        for _ in range(MOST_HALVED_STEPS + 1):
+        for _ in range(4):
             if (left := self._at(temperatures + step)) is not None:
                 return step, left
             step = 0.5 * step
@@ -120,6 +116,6 @@ class _Excess:
             return None
         rise = self.resistance * heat
         left = np.where(self.free, self.inlet + rise - temperatures, 0.0)
-        limit = np.maximum(HEAT_TOLERANCE * np.abs(rise), KELVIN_TOLERANCE)
+        limit = np.maximum(1e-6 * np.abs(rise), 1e-7)  # of the heat [-], or of a temperature [K]
         self.is_settled = bool((np.abs(left) <= limit).all())
         return left

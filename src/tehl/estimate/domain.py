@@ -8,7 +8,13 @@ from tehl.contact.options import USUAL_PLAIN_ERROR, Domain, Options
 from tehl.estimate.duration import duration_of
 from tehl.estimate.entering import body_contrast, entry_error
 from tehl.estimate.film_formulas import expected_central_film, moes_film_unit
-from tehl.estimate.line import OUTLET, line_domain, line_edge_error, line_field_error
+from tehl.estimate.line import (
+    FIELD_EDGE_ERROR,
+    FIELD_EDGE_POWER,
+    OUTLET,
+    ZERO_EDGE_ERROR,
+    line_domain,
+)
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.estimate.starvation import is_starved, starved_domain
@@ -141,7 +147,7 @@ def far_field_error(groups: Groups, domain: Domain) -> float:
     """
     along, across = gap_widths(groups)
     if groups.shape.as_line:
-        return line_field_error(along, domain)
+        return FIELD_EDGE_ERROR * (-along / domain.x[0]) ** FIELD_EDGE_POWER
     inlet, side = -domain.x[0], min(-domain.y[0], domain.y[1])
     part = FAR_SIDES if groups.ellipticity >= SLENDER else FAR_FIELD
     thick = FAR_FIELD * (along / inlet) ** 3 + part * (across / side) ** 3
@@ -166,7 +172,7 @@ def domain_error(groups: Groups, domain: Domain) -> float:
         Edges in Hertz half-widths.
     """
     if groups.shape.as_line:
-        return line_edge_error(gap_widths(groups)[0], domain)
+        return ZERO_EDGE_ERROR * (-gap_widths(groups)[0] / domain.x[0]) ** 3
     stretch = math.sqrt(groups.shape.across)
     side = stretch * min(-domain.y[0], domain.y[1])
     inlet = -domain.x[0]
@@ -206,8 +212,9 @@ def proposed_domain(scaled: ScaledProblem, options: Options) -> Domain:
     options : Options
         With the error to reach; the edges are as near as it allows where the film is extrapolated.
     """
-    near = bool(settled(scaled.problem, options).extrapolate)
-    return chosen_domain(scaled, error_of_domain(scaled, options), near=near)
+    options = settled(scaled.problem, options)
+    error = options.target * (EXTRAPOLATED_DOMAIN if options.extrapolate else 1.0)
+    return chosen_domain(scaled, error, near=bool(options.extrapolate))
 
 
 def _in_time(scaled: ScaledProblem, domain: Domain) -> Domain:
@@ -223,20 +230,6 @@ def _in_time(scaled: ScaledProblem, domain: Domain) -> Domain:
         outlet = max(-inlet, outlet)
     y = domain.y if is_line else tuple(wider * edge for edge in domain.y)
     return Domain.model_construct(x=(-outlet if outlet > -inlet else inlet, outlet), y=y)
-
-
-def error_of_domain(scaled: ScaledProblem, options: Options) -> float:
-    """Return the relative error of the film for which the domain is chosen [-].
-
-    Parameters
-    ----------
-    scaled : ScaledProblem
-        Decides whether the film is extrapolated, see :func:`settled`.
-    options : Options
-        With the error to reach; an extrapolated film leaves only a part of it to the domain.
-    """
-    options = settled(scaled.problem, options)
-    return options.target * (EXTRAPOLATED_DOMAIN if options.extrapolate else 1.0)
 
 
 def chosen_domain(scaled: ScaledProblem, error: float, *, near: bool = False) -> Domain:

@@ -12,9 +12,6 @@ from dataclasses import dataclass
 
 from tehl.contact.problem import ContactProblem
 
-ROLLING = 0.05
-"""Slide-roll ratio up to which a contact counts as pure rolling."""
-
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class InletFactor:
@@ -72,7 +69,7 @@ def inlet_factors(problem: ContactProblem) -> tuple[InletFactor, ...]:
     slip = problem.slide_roll_ratio
     squeezed = problem.hertz.pressure / problem.reduced_modulus
     term = 13.2 * squeezed * loading**0.42
-    sliding = "valid for pure rolling" if abs(slip) > ROLLING else ""
+    sliding = "valid for pure rolling" if abs(slip) > 0.05 else ""
     opposite = "valid for surfaces that move in one direction" if abs(slip) > 2 else ""
     large = f"the term 13.2 p_h/E' L^0.42 = {term:.2g} is not small" if term > 0.5 else ""
     journal = "J. Lubrication Technology"

@@ -30,7 +30,7 @@ LINE_BAR, LINE_NODES = 0.06, tuple(2**k * n + 1 for k in range(5, 10) for n in (
 """Error of the film over M h^2, and numbers of nodes: on fewer a solve is hardly cheaper."""
 
 
-def line_domain(along: float, error: float, shape: Shape = LINE) -> Domain:
+def line_domain(along: float, error: float, shape: Shape) -> Domain:
     """Return the domain for a film with a relative ``error``.
 
     Parameters
@@ -49,7 +49,7 @@ def line_domain(along: float, error: float, shape: Shape = LINE) -> Domain:
     return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=shape.sides)
 
 
-def line_supplied_domain(ratio: float, film: float, shape: Shape = LINE) -> Domain:
+def line_supplied_domain(ratio: float, film: float, shape: Shape) -> Domain:
     """Return a domain that contains the film of a starved contact.
 
     In the oil of a rigid cylinder the gap at the meniscus is the film times 1 + 2.3/(1 - r); here
@@ -72,32 +72,6 @@ def line_supplied_domain(ratio: float, film: float, shape: Shape = LINE) -> Doma
     return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=shape.sides)
 
 
-def line_field_error(along: float, domain: Domain) -> float:
-    """Return the relative error of the film by the far field on the inlet edge.
-
-    Parameters
-    ----------
-    along : float
-        Where the undeformed gap is the central film [half-widths].
-    domain : Domain
-        Its inlet edge.
-    """
-    return float(FIELD_EDGE_ERROR * (-along / domain.x[0]) ** FIELD_EDGE_POWER)
-
-
-def line_edge_error(along: float, domain: Domain) -> float:
-    """Return the relative error of the film by zero pressure on the inlet edge.
-
-    Parameters
-    ----------
-    along : float
-        Where the undeformed gap is the central film [half-widths].
-    domain : Domain
-        Its inlet edge.
-    """
-    return float(ZERO_EDGE_ERROR * (-along / domain.x[0]) ** 3)
-
-
 def line_bar(groups: Groups, domain: Domain, nodes: float) -> float:
     """Return the error bar of the film by the mesh to expect.
 
@@ -111,7 +85,7 @@ def line_bar(groups: Groups, domain: Domain, nodes: float) -> float:
     return LINE_BAR * groups.M * ((domain.x[1] - domain.x[0]) / (nodes - 1)) ** 2
 
 
-def line_points(groups: Groups, domain: Domain, error: float, least: float = 0.0) -> int:
+def line_points(groups: Groups, domain: Domain, error: float, least: float) -> int:
     """Return the nodes on which the error bars of the film will be below an error.
 
     Parameters

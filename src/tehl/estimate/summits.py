@@ -21,11 +21,11 @@ from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.starvation import supplied_film
 
-HALVINGS = 30
 NEGLIGIBLE_ASPERITY_PRESSURE = 1e-9
 """Pressure of the asperities, over that of Hertz, below which they are apart."""
-LEAST_SEPARATION, LAST_SEPARATION, SEPARATION_STEP = -6.0, 30.0, 0.01
-"""Separations of the mean planes over sigma between which their laws are used, and the step."""
+LEAST_SEPARATION, LAST_SEPARATION = -6.0, 30.0
+"""Separations of the mean planes over sigma between which their laws are used."""
+_SEPARATIONS = np.arange(LEAST_SEPARATION, LAST_SEPARATION, 0.01)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -65,19 +65,10 @@ def _shared(
 ) -> SharedLoad:
     """Return the load that is shared.
 
-    Parameters
-    ----------
-    entering : Groups
-        Of the oil that enters.
-    film, unit : float
-        Film without asperities, and their sigma [-].
-    pressure : float
-        Unit of their loads over the Hertz pressure [-].
-    laws : (Array, Array)
-        As of `_laws`.
+    ``film`` is that without asperities, ``unit`` their sigma [-], ``pressure`` the unit of their
+    loads over the Hertz pressure [-], and ``laws`` are those of `_laws`.
     """
     flooded = expected_central_film(entering)
-    separations = np.arange(LEAST_SEPARATION, LAST_SEPARATION, SEPARATION_STEP)
     gaps, loads = laws
     carried = pressure * loads
 
@@ -89,28 +80,26 @@ def _shared(
     if float(np.interp(rest(0.0), gaps, carried)) < NEGLIGIBLE_ASPERITY_PRESSURE:
         return SharedLoad(separation=film, gap=film, share=0.0)
     low, high = 0.0, 1.0 - NEGLIGIBLE_ASPERITY_PRESSURE
-    for _ in range(HALVINGS):
+    for _ in range(30):
         share = 0.5 * (low + high)
         # at the gap of such a film the asperities would carry more, or less, than their share
         is_more = float(np.interp(rest(share), gaps, carried)) > share
         low, high = (share, high) if is_more else (low, share)
     share = 0.5 * (low + high)
-    separation = float(np.interp(-share, -carried, separations))
-    gap = float(np.interp(separation, separations, gaps))
+    separation = float(np.interp(-share, -carried, _SEPARATIONS))
+    gap = float(np.interp(separation, _SEPARATIONS, gaps))
     return SharedLoad(separation=separation * unit, gap=gap * unit, share=share)
 
 
 @cache
 def _summits() -> tuple[Array, Array]:
     """Return `_laws` of Greenwood and Tripp, the same for all summits."""
-    separations = np.arange(LEAST_SEPARATION, LAST_SEPARATION, SEPARATION_STEP)
-    return mean_gap(separations), gaussian_integral(2.5, separations)
+    return mean_gap(_SEPARATIONS), gaussian_integral(2.5, _SEPARATIONS)
 
 
 def _laws(asperities: Asperities) -> tuple[Array, Array]:
     """Return mean gap over sigma, and load over its unit, at all separations."""
-    separations = np.arange(LEAST_SEPARATION, LAST_SEPARATION, SEPARATION_STEP)
-    return asperities.mean_gap(separations), asperities.load(separations)
+    return asperities.mean_gap(_SEPARATIONS), asperities.load(_SEPARATIONS)
 
 
 def _softer(groups: Groups, part: float) -> Groups:

@@ -9,9 +9,6 @@ import numpy as np
 
 from tehl.base.typing import Array
 
-NODES_PER_STEP = 4
-"""Nodes of Gauss per step for the distances: their error is of eighth order in the step."""
-
 Number = TypeVar("Number", float, Array)
 Velocity = tuple[float, float]
 """Components at the centre of the contact over u_m."""
@@ -25,11 +22,6 @@ class Way(NamedTuple):
     """[a_x]."""
     turn: float = 0.0
     """Angle from x to y [rad]."""
-
-    @property
-    def is_along_x(self) -> bool:
-        """Whether nothing moves across or turns."""
-        return self.across == 0.0 == self.turn
 
     def back(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Return where the points were that are at ``x``, ``y`` now [a_x].
@@ -111,8 +103,8 @@ def way_of(velocity: Callable[[float], Velocity], spin: float, step: float) -> W
 
 @cache
 def _nodes_of_gauss() -> tuple[tuple[float, float], ...]:
-    """Return nodes and weights of Gauss on 0 to 1."""
-    nodes, weights = np.polynomial.legendre.leggauss(NODES_PER_STEP)
+    """Return four nodes and weights of Gauss on 0 to 1: of eighth order in the step."""
+    nodes, weights = np.polynomial.legendre.leggauss(4)
     return tuple(zip((0.5 * (nodes + 1.0)).tolist(), (0.5 * weights).tolist(), strict=True))
 
 
