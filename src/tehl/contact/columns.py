@@ -4,8 +4,12 @@ import math
 import re
 from pathlib import Path
 
+from pydantic import ValidationInfo
+
 from tehl.base.errors import InputError
 from tehl.base.lists import lines_of_file
+from tehl.base.table import folder_of
+from tehl.base.units import Place, quantity
 
 
 def read_columns(
@@ -48,3 +52,23 @@ def read_columns(
         if not all(map(math.isfinite, pair)):
             raise ValueError(f"has the line {pair[0]:g}, {pair[1]:g}; both numbers must be finite")
     return [(first, second) for first, second in pairs], units
+
+
+def lengths_over_y(stated: object, info: ValidationInfo, name: str) -> object:
+    """Return places y and lengths there [m] of the CSV file that a table names.
+
+    Parameters
+    ----------
+    stated : object
+        Name of the file, beside the case; anything else is returned as it is.
+    info : ValidationInfo
+        Of the table, with the folder of the case.
+    name : str
+        What the second column has, for messages.
+    """
+    if not isinstance(stated, str):
+        return stated
+    path = (folder_of(info) or Path()) / stated
+    pairs, units = read_columns(path, ("y", name), f"y [mm], {name} [um]")
+    first, second = (quantity(Place).parse(f"1 {unit}") for unit in units or ("m", "m"))
+    return [(y * first, length * second) for y, length in pairs]

@@ -36,6 +36,7 @@ from pydantic import Field, model_validator
 
 from tehl.base.lazy import lazy
 from tehl.base.table import Table
+from tehl.base.typing import np
 from tehl.base.units import HeatTransfer, Length
 from tehl.contact.materials import Solid
 
@@ -46,8 +47,6 @@ if TYPE_CHECKING:
 else:
     special = lazy("scipy.special")
 
-EULER, CATALAN = 0.5772156649015329, 0.915965594177219
-"""Constants gamma and G."""
 SUMMED_PASSES = 100
 """Terms of the sum S; the rest is an integral, with an error below 1e-5."""
 LARGEST_BIOT = 0.3
@@ -102,7 +101,9 @@ class _Body(Table):
             )
         spread = diffusivity * 2.0 * math.pi * shape.track / abs(speed)
         logarithms = (
-            math.log(shape.depth_squared / spread) + EULER + _passes(width**2 / (5.0 * spread))
+            math.log(shape.depth_squared / spread)
+            + np.euler_gamma
+            + _passes(width**2 / (5.0 * spread))
         )
         if not logarithms > 0.0:
             raise ValueError(
@@ -172,9 +173,8 @@ class Ball(_Body):
 
     def _shape(self, conductivity: float) -> _Shape:
         radius, transfer = self.radius, self.heat_transfer
-        depth = math.exp(
-            4.0 * math.log(2.0) - 2.0 * math.pi * (1.0 - math.log(2.0)) - 4.0 * CATALAN
-        )
+        ln_2, catalan = math.log(2.0), 0.915965594177219
+        depth = math.exp(4.0 * ln_2 - 2.0 * math.pi * (1.0 - ln_2) - 4.0 * catalan)
         return _Shape(
             radius,
             depth * radius**2,

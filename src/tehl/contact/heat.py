@@ -88,8 +88,6 @@ class FilmEnergy:
 def source_form(stated: SourceForm, peclet: float) -> Literal["line", "full"]:
     """Return the moving source of a surface, as stated or for its Peclet number.
 
-    ``peclet`` is u_s a_x / (2 diffusivity) of the solid [-], negative if it moves against x.
-
     Parameters
     ----------
     stated : {"auto", "line", "full"}

@@ -21,15 +21,13 @@ def _not_a_boolean(value: object) -> object:
 
 def _memory(value: object) -> object:
     """Reject what is not an amount of memory."""
-    known = isinstance(value, int | float) and abs(value) < MOST_MEMORY  # not NaN
+    known = isinstance(value, int | float) and abs(value) < 1e18  # not NaN, and no machine has more
     known = known or (isinstance(value, str) and _MEMORY.fullmatch(value) is not None)
     if isinstance(value, bool) or not known:
         raise ValueError('is not an amount of memory, such as "2 GB"')
     return int(value) if isinstance(value, float) else value
 
 
-MOST_MEMORY = 1e18
-"""Bytes that no machine has."""
 _MEMORY = re.compile(r"\s*\d*\.?\d+\s*[kMGT]i?B\s*")
 NUMERICS = "numerics"
 """Table of a case that holds its options."""

@@ -17,20 +17,15 @@ References
 
 import math
 from itertools import pairwise
-from pathlib import Path
 from typing import Annotated, ClassVar, Literal, Protocol, Self
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
-from tehl.base.table import Table, folder_of
+from tehl.base.table import Table
 from tehl.base.typing import Array, np
 from tehl.base.units import Force, Length, Place
-from tehl.contact.supply import read_pairs
+from tehl.contact.columns import lengths_over_y
 
-END_PART = 0.3033
-"""Of Johns and Gohar: how much b/a lessens s^2, so that the ends have a finite drop."""
-ISO_SHORT, ISO_LONG, ISO_RATIO = 0.00035, 0.0005, 2.5
-"""Of ISO 16281: A over the diameter up to this ratio of length to diameter, and beyond it."""
 LEAST_REST = 1e-3
 """Least 1 - s^2: the outermost 0.05 % of half the length have the drop of the place before."""
 
@@ -105,14 +100,15 @@ class Logarithmic(Table):
         if self.diameter is not None:
             return self._of_standard(s, roller.length, self.diameter)
         part = 1.0 if self.design_load is None else self.design_load / roller.force
-        end = END_PART * math.sqrt(part) * roller.half_width / (0.5 * roller.length)
+        end = 0.3033 * math.sqrt(part) * roller.half_width / (0.5 * roller.length)
         rest = 1.0 - (1.0 - (end if self.shape == "logarithmic" else 0.0)) * s**2
         return -part * roller.amplitude * np.log(np.maximum(rest, LEAST_REST))
 
     @staticmethod
     def _of_standard(s: Array, length: float, diameter: float) -> Array:
-        longest = ISO_RATIO * diameter
-        factor = ISO_SHORT if length <= longest else ISO_LONG
+        """Return the drop of ISO 16281 [m]."""
+        longest = 2.5 * diameter
+        factor = 0.00035 if length <= longest else 0.0005
         outside = np.maximum(np.abs(s) * length - max(length - longest, 0.0), 0.0)
         rest = 1.0 - (outside / min(length, longest)) ** 2
         return -factor * diameter * np.log(np.maximum(rest, LEAST_REST))
@@ -133,10 +129,7 @@ class Tabulated(Table):
     @field_validator("drops", mode="before")
     @classmethod
     def _read_file(cls, value: object, info: ValidationInfo) -> object:
-        if not isinstance(value, str):
-            return value
-        path = Path(folder_of(info) or Path()) / value
-        return read_pairs(path, ("y", "drop"), "y [mm], drop [um]")
+        return lengths_over_y(value, info, "drop")
 
     @model_validator(mode="after")
     def _places_must_increase(self) -> Self:

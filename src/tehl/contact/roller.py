@@ -30,9 +30,6 @@ LARGEST_TILT = 0.05
 """Largest tilt of a roller [rad]: real ones have 0.0001 to 0.005."""
 SLICES = 201
 """Slices of a dry roller."""
-TILT_STEPS, EVEN_MOMENT = 28, 1e-12
-"""Halvings of twice the largest tilt, to 4e-10 rad, and moment over load times half the length
-below which there is none."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -78,7 +75,7 @@ class Roller(Line):
             amplitude=2.0 * load / (self.length * math.pi * modulus),
             film_unit=width**2 / radii.x,
         )
-        return found if self.moment is None else replace(found, tilt=dry_tilt(found))
+        return found if self.moment is None else replace(found, tilt=_dry_tilt(found))
 
     @property
     def scaled_moment(self) -> float:
@@ -168,7 +165,7 @@ class Roller(Line):
 
 
 @lru_cache(maxsize=16)
-def dry_tilt(roller: Roller) -> float:
+def _dry_tilt(roller: Roller) -> float:
     """Return the tilt with which the slices of a roller under its load carry its moment [rad].
 
     It is `LARGEST_TILT` at most.
@@ -180,10 +177,10 @@ def dry_tilt(roller: Roller) -> float:
         share = replace(roller, tilt=tilt).share(y)
         return float((share * y).mean() / share.mean()) - wanted
 
-    if abs(excess(0.0)) < EVEN_MOMENT:
+    if abs(excess(0.0)) < 1e-12:  # rounding
         return 0.0
     low, high = -LARGEST_TILT, LARGEST_TILT
-    for _ in range(TILT_STEPS):
+    for _ in range(28):  # to 4e-10 rad
         middle = 0.5 * (low + high)
         low, high = (middle, high) if excess(middle) > 0.0 else (low, middle)
     return 0.5 * (low + high)

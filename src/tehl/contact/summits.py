@@ -33,6 +33,7 @@ from pydantic import Field, model_validator
 from tehl.base.table import Table
 from tehl.base.typing import np
 from tehl.base.units import Height, Quantity, SummitRadius
+from tehl.contact.boundary_contact import Friction
 from tehl.roughness.map import Map
 
 if TYPE_CHECKING:
@@ -42,7 +43,6 @@ if TYPE_CHECKING:
     from tehl.patch.curves import PatchCurves
 
 SummitDensity = Annotated[float, Quantity("a number per area", "1/m^2", '"1e10 1/m^2"')]
-Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative")]
 
 LARGEST_SEPARATION, LOG_STEP = 8.0, 0.02
 """Separation over sigma beyond which no area is in contact, and step of a spline up to there."""

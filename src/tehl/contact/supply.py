@@ -1,20 +1,16 @@
 """Supply of oil and cavitation: the ``[supply]`` and ``[cavitation]`` tables of a case."""
 
 from itertools import pairwise
-from pathlib import Path
 from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, StrictBool, ValidationInfo, field_validator, model_validator
 
 from tehl.base.table import Table
-from tehl.base.units import Height, Length, Place, Quantity, Ratio, quantity
-from tehl.contact.columns import read_columns
+from tehl.base.units import Height, Length, Place, Quantity, Ratio
+from tehl.contact.columns import lengths_over_y
 
 THINNEST_LAYER, THICKEST_LAYER = 1e-9, 1e-2
 """Limits of the thickest layer of a supply [m]."""
-MOST_PASSES = 100_000
-LEAST_SUPPLY_RATIO, LARGEST_SUPPLY_RATIO = 1e-3, 1e3
-"""Least and largest supply over what the flooded contact passes on."""
 OilRatio = Annotated[float, Quantity("a plain number", "-", "0.5")]
 
 
@@ -36,9 +32,9 @@ class Supply(Table):
     ] = None
     """Places y [m] and layers there [m], linear between; or the name of a CSV file with both in two
     columns, in metres or with their units in its header: ``y [mm], layer [um]``."""
-    ratio: Annotated[OilRatio, Field(ge=LEAST_SUPPLY_RATIO, le=LARGEST_SUPPLY_RATIO)] | None = None
+    ratio: Annotated[OilRatio, Field(ge=1e-3, le=1e3)] | None = None
     """Oil that enters, over what the fully flooded contact passes on at its centre [-]."""
-    passes: Annotated[int, Field(ge=2, le=MOST_PASSES)] | None = None
+    passes: Annotated[int, Field(ge=2, le=100_000)] | None = None
     """Times that the same surfaces pass the contact: the oil that leaves it comes back."""
     track: Length | None = None
     """Length of the running tracks of both surfaces together [m]: a pass takes half of it over the
@@ -51,10 +47,7 @@ class Supply(Table):
     @field_validator("profile", mode="before")
     @classmethod
     def _read_file(cls, value: object, info: ValidationInfo) -> object:
-        if not isinstance(value, str):
-            return value
-        folder = (info.context or {}).get("folder") or Path()
-        return read_pairs(Path(folder) / value, ("y", "layer"), "y [mm], layer [um]")
+        return lengths_over_y(value, info, "layer")
 
     @model_validator(mode="after")
     def _once(self) -> Self:
@@ -105,19 +98,6 @@ def _check_layer(key: str, layer: float) -> None:
             f"{key} = {layer:g} m must be between {1e9 * THINNEST_LAYER:g} nm, the size "
             f"of a molecule, and {1e3 * THICKEST_LAYER:g} mm"
         )
-
-
-def read_pairs(path: Path, names: tuple[str, str], header: str) -> list[tuple[float, float]]:
-    """Return the two columns of a CSV file [m]; raise ValueError with one sentence.
-
-    Parameters
-    ----------
-    path, names, header : Path, (str, str), str
-        The file, what its columns are, and an example of its header.
-    """
-    pairs, units = read_columns(path, names, header)
-    first, second = (quantity(Place).parse(f"1 {unit}") for unit in units or ("m", "m"))
-    return [(y * first, value * second) for y, value in pairs]
 
 
 class Cavitation(Table):

@@ -37,7 +37,7 @@ def with_motion(stated: Any) -> Any:
         first, second = (_parsed(stated[key]) for key in KEYS)
     except (TypeError, ValueError):
         return {"entrainment_speed": 1.0, **stated}  # the field itself reports its mistake
-    made = motion_of(first, second)
+    made = _motion_of(first, second)
     for key, value in made.items():
         if stated.get(key) not in (None, value):
             raise ValueError(f"states velocity_1, velocity_2 and {key}: leave out {key}")
@@ -52,19 +52,8 @@ def _parsed(stated: Any) -> tuple[float, float]:
     return SIGNED_SPEED.parse(along), SIGNED_SPEED.parse(across)
 
 
-def motion_of(first: tuple[float, float], second: tuple[float, float]) -> dict[str, float]:
-    """Return size and direction of the mean of two velocities, and of their difference.
-
-    Parameters
-    ----------
-    first, second : (float, float)
-        Velocities of surface 1 and 2 along both axes of the contact [m/s].
-
-    Raises
-    ------
-    ValueError
-        If their mean is zero.
-    """
+def _motion_of(first: tuple[float, float], second: tuple[float, float]) -> dict[str, float]:
+    """Return size and direction of the mean of two velocities [m/s], and of their difference."""
     x, y = (0.5 * (one + other) for one, other in zip(first, second, strict=True))
     along, across = (one - other for one, other in zip(first, second, strict=True))
     mean, sliding = math.hypot(x, y), math.hypot(along, across)
