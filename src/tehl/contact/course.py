@@ -80,15 +80,7 @@ def course_of(stated: Stated, kind: Quantity, reference: float) -> Course:
 
 
 def _reader(*kinds: Quantity, signed: bool = False) -> BeforeValidator:
-    """Return the validator of a course.
-
-    Parameters
-    ----------
-    kinds : Quantity
-        Of values with a unit: one of them.
-    signed : bool
-        Whether values may be negative.
-    """
+    """Return the validator of a course whose values with a unit are of one of these kinds."""
     plain = quantity(Number if signed else PositiveNumber)
 
     def read(value: object, info: ValidationInfo) -> object:

@@ -193,14 +193,8 @@ def _points_of_waves(
 ) -> tuple[int, int]:
     """Return the fewest nodes (nx, ny) that film and waves of a point contact need.
 
-    Where waves need more than `ROUGH_NODES` allow, those that come nearest.
-
-    Parameters
-    ----------
-    scaled, domain : ScaledProblem, Domain
-        The contact, and the domain of the solve.
-    enough : callable
-        Returns the nodes (nx, ny) for the film, more along x than those for the waves.
+    Where waves need more than `ROUGH_NODES` allow, those that come nearest. ``enough`` returns the
+    nodes (nx, ny) for the film, more along x than those for the waves.
     """
     along, across = _nodes_of_waves(scaled, domain)
     slender, found = max(scaled.groups.ellipticity, 1.0), []

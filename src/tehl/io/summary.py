@@ -113,15 +113,7 @@ def _steady(result: Solution) -> Block:
 
 
 def _blocks_of(found: Any, only: str = "") -> Block:
-    """Return the blocks of a summary, those without an owner as None.
-
-    Parameters
-    ----------
-    found : Following
-        A result with what follows from it.
-    only : str
-        The block to return, with those inside; all by default.
-    """
+    """Return the blocks of a summary, or ``only`` one; those without an owner are None."""
     content: Block = {}
     for path, rows in groupby(registry.in_summary(), key=lambda one: one.block):
         if not only or f"{path}.".startswith(f"{only}."):

@@ -111,16 +111,7 @@ def _finer(x: Array, y: Array, field: Array) -> tuple[Array, Array, Array]:
 def _image(axes: Axes, x: Array, y: Array, field: Array, **style: Any) -> AxesImage:
     """Draw the exponential of a field at even places as an image: quick, for any of their number.
 
-    Parameters
-    ----------
-    axes : Axes
-        Where; they keep their aspect.
-    x, y : array (n,), (m,)
-        Places, evenly spaced.
-    field : array (m, n)
-        Logarithms; colours between places follow from values between, not from their colours.
-    **style
-        Norm and colours.
+    Colours between places follow from values between, not from their colours.
     """
     (left, right), (bottom, top) = (
         (axis[0] - 0.5 * (axis[1] - axis[0]), axis[-1] + 0.5 * (axis[1] - axis[0]))

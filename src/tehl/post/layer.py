@@ -98,13 +98,6 @@ def _side_flow_rate(result: Solution, track: float) -> float:
     mesh. The flow of a row is the derivative of its reduced pressure, which is smooth along y::
 
         F = -(2 / l) S_yy,    S(y) = int int_0^p dp / (rho^2 eta) dx
-
-    Parameters
-    ----------
-    result : Solution
-        A solved contact.
-    track : float
-        Length of both running tracks together [m].
     """
     oil, temperature = result.problem.lubricant, result.scales.temperature
     steps = np.linspace(0.0, 1.0, PRESSURES) ** 2 * result.pressure.max()

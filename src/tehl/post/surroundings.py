@@ -137,12 +137,8 @@ def _beyond(result: Solution, outer: float) -> tuple[float, float]:
 def _rays(angles: Array, pressures: Array, corners: Array) -> tuple[Array, Array]:
     """Return angles at which the oil is not cavitated, and their weights in an integral.
 
-    Parameters
-    ----------
-    angles, pressures : (n,) array
-        Pressure f by angle, as `tehl.operators.far_field.angular_pressure` returns it.
-    corners : (m,) array
-        Angles of the corners of the grid, at which its edge has kinks.
+    ``pressures`` are f by angle, as `tehl.operators.far_field.angular_pressure` returns it; the
+    edge of the grid has kinks at ``corners``.
     """
     wet, root = np.flatnonzero(pressures > 0.0), np.sqrt(pressures)
     ends = []

@@ -143,14 +143,8 @@ def _across(
 ) -> tuple[float, dict[str, float]]:
     """Return the friction power [W], and what `Traction` has of motion that is not along x alone.
 
-    Parameters
-    ----------
-    result : Solution
-        With shear stresses.
-    area : (ny, nx) array
-        Area of each node in the loaded zone [m^2].
-    meet : (ny, nx) array or False
-        Where surfaces touch: there is no stress of the film.
+    ``area`` is that of each node in the loaded zone [m^2]. Where surfaces ``meet`` there is no
+    stress of the film.
     """
     shear, motion, x, y = result.shear, result.problem.motion, result.x, result.y[:, None]
     assert shear is not None

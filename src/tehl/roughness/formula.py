@@ -13,7 +13,6 @@ from tehl.roughness.model import RoughnessModel, Wavelength, check_slope
 
 _SAMPLE_HALF_WIDTH, _DIFFERENCE_STEP, _SAMPLE_COUNT = 1e-3, 5e-8, 4096
 """Half-width of the square that is sampled, step of differences [m], and number of samples."""
-_FLAT_HEIGHTS, _EQUAL_HEIGHTS = 1e-9, 1e-9
 
 
 class _Samples(NamedTuple):
@@ -111,14 +110,13 @@ def _samples(formula: str) -> _Samples:
         after = _heights(formula, x + along, y + across)
         slope = float(np.abs(after - before).max()) / (2.0 * _DIFFERENCE_STEP)
         bend = float(np.abs(after - 2.0 * middle + before).max()) / _DIFFERENCE_STEP**2
-        is_straight = (
-            bend * _DIFFERENCE_STEP**2 <= _FLAT_HEIGHTS * slope * _DIFFERENCE_STEP + 1e-13 * scale
-        )
+        rounding = 1e-9 * slope * _DIFFERENCE_STEP + 1e-13 * scale
+        is_straight = bend * _DIFFERENCE_STEP**2 <= rounding
         waves.append(math.inf if is_straight else 2.0 * math.pi * slope / bend)
     mirrored = _heights(formula, x, -y)
     return _Samples(
         rms=float(middle[:_SAMPLE_COUNT].std()),
         largest=float(np.ptp(middle)) / 2.0 if np.ptp(middle) > 0 else scale,
         wavelengths=(waves[0], waves[1]),
-        is_even_in_y=bool(np.abs(mirrored - middle).max() <= _EQUAL_HEIGHTS * scale),
+        is_even_in_y=bool(np.abs(mirrored - middle).max() <= 1e-9 * scale),
     )

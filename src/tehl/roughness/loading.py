@@ -29,7 +29,6 @@ from tehl.roughness.tile import Tile
 _LEAST_POINTS = 4
 _LEAST_SQ, _LARGEST_SQ = 1e-12, 10e-6
 _PHASES = ("rad", "radian", "radians", "waves", "wave", "fringes", "fringe", "fr", "wv")
-_LARGEST_SIZE, _LEAST_SPACING, _LARGEST_HEIGHT = 1.0, 1e-10, 1.0
 
 
 @contextmanager
@@ -110,7 +109,7 @@ def _highest(heights: Array, factor: float) -> float:
     if not np.isfinite(heights).any():
         raise InputError("has no point with a height")
     highest = float(np.abs(heights[np.isfinite(heights)]).max())
-    if not highest <= _LARGEST_HEIGHT / factor:
+    if not highest <= 1.0 / factor:  # a metre
         raise InputError(
             f"has heights up to {highest:.3g} times {factor:g} m: it is damaged, marks missing "
             "points by a number, or has another unit"
@@ -165,7 +164,7 @@ def _pixel(surface: MapFile, raw: RawMap, notes: list[str]) -> tuple[float, floa
             first, second = (f"{x * 1e6:.4g} and {y * 1e6:.4g} um" for x, y in (pixel, own))
             notes.append(f"its points are taken {first} apart, though the file says {second}")
     size = (nx * pixel[0], ny * pixel[1])
-    if not (max(size) <= _LARGEST_SIZE and min(pixel) >= _LEAST_SPACING):
+    if not (max(size) <= 1.0 and min(pixel) >= 1e-10):
         raise InputError(
             f"has a size of {size[0]:.3g} x {size[1]:.3g} m with points {min(pixel):.3g} m "
             "apart, which is not that of a measured surface: check unit, xy_unit, pixel and size"

@@ -15,8 +15,6 @@ Fill = Literal["auto", "linear", "nearest", "refuse"]
 
 FEW_MISSING, MOST_MISSING = 0.01, 0.5
 """Share of missing points that is filled by default, and that no filling bridges."""
-_NEIGHBOURS, _EXPLAINS = 5, 7
-"""Points along the edges of the windows of the medians, and of the range of these."""
 RELATIVE_ROUNDING = 1e-12
 _DEGREE = {"mean": 0, "plane": 1, "quadratic": 2}
 _ALPHA = math.sqrt(math.log(2.0) / math.pi)
@@ -73,9 +71,9 @@ def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
     """
     there = np.isfinite(values)
     whole = _nearest(values, ~there)
-    median = ndimage.median_filter(whole, _NEIGHBOURS, mode="nearest")
-    explained = ndimage.maximum_filter(median, _EXPLAINS, mode="nearest")
-    explained -= ndimage.minimum_filter(median, _EXPLAINS, mode="nearest")
+    median = ndimage.median_filter(whole, 5, mode="nearest")
+    explained = ndimage.maximum_filter(median, 7, mode="nearest")
+    explained -= ndimage.minimum_filter(median, 7, mode="nearest")
     off = np.abs(whole - median)
     rounding = RELATIVE_ROUNDING * float(np.abs(whole).max())
     limit = np.maximum(explained, max(sigmas * _usual(off[there]), rounding))

@@ -21,16 +21,13 @@ from tehl.roughness.model import (
 if TYPE_CHECKING:
     from tehl.roughness.tile import Tile
 
-_PER_LENGTH, _LATTICE_POINTS = 4, 1024
-"""Points per correlation length or cut-off, and of the lattice."""
+_LATTICE_POINTS = 1024
 _WIDE_RANGE, _LARGEST_RANGE = 16.0, 64.0
 _LENGTHS = ("correlation_length", "roll_off")
 _LEAST_LENGTHS = 4
 """Fewest correlation or roll-off lengths after which a surface repeats along y."""
 _SHORTEST_LENGTH, _LONGEST_LENGTH = 1e-12, 1e6
 _LARGEST_KURTOSIS = 20.0
-_FIT_BINS, _STARTS, _LARGEST_FIT_ERROR = 4001, (0.0, 1.0, 3.0), 1e-3
-"""Of the fit of skewness and kurtosis: bins, first shifts, and the largest error that is left."""
 
 Seed = Annotated[int, Field(strict=True, ge=0, le=2**53)]
 
@@ -112,7 +109,7 @@ class Spectral(TileModel):
     @property
     def lattice(self) -> tuple[tuple[int, int], tuple[float, float]]:
         """Return points along u and v, and pixels [m], of the lattice."""
-        along, across = (length / self._band / _PER_LENGTH for length in self._lengths)
+        along, across = (length / self._band / 4 for length in self._lengths)
         points = _LATTICE_POINTS if self._band <= _WIDE_RANGE else 2 * _LATTICE_POINTS
         return (points, points), (along, across)
 
@@ -302,7 +299,7 @@ def _with_moments(heights: Array, skewness: float, kurtosis: float) -> Array:
     """
     from scipy.optimize import least_squares  # noqa: PLC0415
 
-    count, edges = np.histogram(heights, bins=_FIT_BINS)
+    count, edges = np.histogram(heights, bins=4001)
     places, share = 0.5 * (edges[1:] + edges[:-1]), count / count.sum()
 
     def transformed(heights: Array, parameters: Array) -> Array:
@@ -316,10 +313,10 @@ def _with_moments(heights: Array, skewness: float, kurtosis: float) -> Array:
 
     fits = [
         least_squares(missed, (start * np.sign(skewness), 0.0), bounds=([-30, -3], [30, 3]))
-        for start in (_STARTS if skewness else _STARTS[:1])
+        for start in ((0.0, 1.0, 3.0) if skewness else (0.0,))
     ]
     best = min(fits, key=lambda fit: float(fit.cost))
-    if not np.abs(best.fun).max() < _LARGEST_FIT_ERROR:
+    if not np.abs(best.fun).max() < 1e-3:
         raise InputError(
             f"kurtosis = {kurtosis:g} with skewness = {skewness:g} cannot be made of these heights"
         )

@@ -18,8 +18,6 @@ from tehl.roughness.model import Edge, Roughness, direction
 
 PASS_BAND, STOP_BAND = 0.25, 0.5
 """Waves per mesh width up to which all of a wave passes, and from which nothing does."""
-_MOST_POINTS_OF_TILE, _LARGEST_RIM_FACTOR = 4_000_000, 4
-"""Points of a tile with its rim, and over those without, above which it is coarsened."""
 
 Pair = tuple[float, float]
 
@@ -224,9 +222,7 @@ def _on_a_mesh(coefficients: Array, rows: Support, columns: Support) -> Array:
 def _is_roomy(shape: tuple[int, ...], rim: tuple[int, int]) -> bool:
     """Return whether a rim of these widths in points makes the heights many times larger."""
     ny, nx = shape
-    return (ny + 2 * rim[1]) * (nx + 2 * rim[0]) > max(
-        _LARGEST_RIM_FACTOR * ny * nx, _MOST_POINTS_OF_TILE
-    )
+    return (ny + 2 * rim[1]) * (nx + 2 * rim[0]) > max(4 * ny * nx, 4_000_000)
 
 
 def _cosines(waves: int, count: int, rim: int, whole: int) -> Array:

@@ -39,8 +39,6 @@ Finished = list[tuple[Ticket, Any]]
 _THREADS = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _ENVIRONMENT = dict.fromkeys((*_THREADS, "PYTHONSAFEPATH"), "1")
 """Of workers: one thread; a random.py in the current folder does not shadow the library's."""
-_STARTS, _PAUSE = 3, 0.1
-"""Attempts to start workers, and seconds between them, for a crashed fork server to end."""
 _STARTING = Lock()
 """Held while the environment of the program is that of workers."""
 _CONNECT = 30.0
@@ -189,7 +187,7 @@ class Pool(Engine):
 
     def _started(self, count: int) -> list["WorkerProcess"]:
         """Start workers side by side; return them when each has reported that it is ready."""
-        for _ in range(_STARTS):
+        for _ in range(3):
             workers = list[WorkerProcess]()
             try:
                 with undisturbed():
@@ -198,7 +196,7 @@ class Pool(Engine):
                     worker.connection.recv()
             except (EOFError, ConnectionError):
                 end(workers)
-                time.sleep(_PAUSE)
+                time.sleep(0.1)  # for a crashed fork server to end
             else:
                 return workers
         raise OSError(_NO_WORKER)

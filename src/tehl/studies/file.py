@@ -105,14 +105,9 @@ def _brackets(key: str) -> str:
 def _plan_of(
     stated: StudyFile, folder: Path, overrides: Sequence[str] = (), *, unlimited: bool = False
 ) -> Plan:
-    """Return the plan of a study that was read.
+    """Return the plan of a study whose relative paths begin in ``folder``.
 
-    Parameters
-    ----------
-    stated, folder : StudyFile, Path
-        The study, and where relative paths begin.
-    overrides, unlimited
-        As of :func:`read_study`; an invalid study raises an InputError or ValueError.
+    An invalid one raises an InputError or ValueError.
     """
     groups = groups_of([axis.with_values(folder) for axis in stated.axes])
     listed = () if stated.cases is None else (block_of_file(folder / stated.cases),)

@@ -23,8 +23,6 @@ from tehl.studies.case import Case, Row
 Keep = Literal["summary", "fields"]
 
 _STORE_FORMAT = 2
-_TIMEOUT = 60.0
-"""Seconds to wait for another study that writes into the same store."""
 _REMEDY = "bring back a copy of it, or remove it and all its cases are solved again"
 _COLUMNS = "key, status, cause, message, hint, retry_settings, summary, cpu_seconds, wall_seconds"
 _READABLE = "CASE WHEN json_valid(summary) THEN json_type(summary) = 'object' ELSE 0 END"
@@ -175,8 +173,9 @@ class Store:
             log = self._file.with_name(f"{self._file.name}-wal")
             how = "mode=ro" if log.exists() else "immutable=1"  # nothing writes it without a log
             place, is_uri = f"{self._file.resolve().as_uri()}?{how}", True
+        # waits for another study that writes into the same store
         self._connection = sqlite3.connect(
-            place, _TIMEOUT, isolation_level="IMMEDIATE", check_same_thread=False, uri=is_uri
+            place, 60.0, isolation_level="IMMEDIATE", check_same_thread=False, uri=is_uri
         )
         # text that is not UTF-8 must not hide the other rows
         self._connection.text_factory = lambda text: text.decode("utf-8", "replace")

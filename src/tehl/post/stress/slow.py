@@ -168,18 +168,10 @@ class _Axis(NamedTuple):
 
 
 def _axis(step: float, number: int, part: slice, warm: float) -> _Axis:
-    """Return the waves of an axis.
+    """Return the waves of an axis of ``number`` nodes ``step`` [m] apart.
 
-    Parameters
-    ----------
-    step : float
-        Mesh width [m].
-    number : int
-        Nodes along it, heated or not.
-    part : slice
-        Nodes whose stresses are wanted.
-    warm : float
-        Nodes that are heated; infinite if all waves of the grid count.
+    Stresses are wanted at those of ``part``; ``warm`` of them are heated, infinite if all waves of
+    the grid count.
     """
     short = np.pi / step
     most = short if np.isinf(warm) else min(short, LARGEST_WAVE / (0.5 * warm * step))
@@ -201,16 +193,9 @@ def _axis(step: float, number: int, part: slice, warm: float) -> _Axis:
 
 
 def _quadrature(most: float, panel: float, halvings: int) -> tuple[Array, Array]:
-    """Return nodes and weights of a quadrature from zero on, denser towards it.
+    """Return nodes and weights of a quadrature from zero to ``most``, denser towards zero.
 
-    Parameters
-    ----------
-    most : float
-        End of the integral.
-    panel : float
-        Largest width of a panel.
-    halvings : int
-        Times that the first one is halved.
+    Panels are at most as wide as ``panel``, and the first one is halved so many times.
     """
     ends = np.linspace(0.0, most, int(np.ceil(most / panel)) + 1)
     ends = np.concatenate([[0.0], ends[1] * 0.5 ** np.arange(halvings, 0, -1), ends[1:]])

@@ -17,14 +17,6 @@ CLEAR = 3.0
 """Amplitude of a wave that stands out over that of the next one, at least."""
 LEAST_RELATIVE_SLOPE = 0.1
 """Slope of a reported wave over that of the steepest, at least."""
-_CANDIDATES = 8
-# In waves over the whole region: the fewest that are searched, the least distance of peaks, and how
-# far a fit may leave its peak.
-_LONGEST_WAVE, _SEPARATION, _MOVES = 1.5, 2.0, 0.35
-_PADDED = 4
-_SEARCH_NODES = 256
-_SEARCH_STEPS = 8
-_SETTLED = 1e-6
 _UPRIGHT = math.sin(math.radians(0.5))
 
 
@@ -62,7 +54,7 @@ def distinct_waves(
     columns, rows = (_within(axis) for axis in (x, y))
     region = _Region.of(x[columns], y[rows], heights[rows, columns])
     found: list[WaveVector] = []
-    while len(found) < _CANDIDATES and sum(map(is_short, found)) <= MOST_WAVES:
+    while len(found) < 8 and sum(map(is_short, found)) <= MOST_WAVES:
         start = region.peak(found)
         if start is None:
             break
@@ -81,12 +73,12 @@ def distinct_waves(
 
 
 def _within(axis: Array) -> slice:
-    """Return the nodes of the contact, the middle ones where they are very many.
+    """Return the nodes of the contact, the middle 256 where they are more.
 
     Every other one would show the shortest waves as longer ones.
     """
     inside = np.flatnonzero(np.abs(axis) <= SEARCH_HALF_WIDTH)
-    left = max(inside.size - _SEARCH_NODES, 0) // 2
+    left = max(inside.size - 256, 0) // 2
     return slice(int(inside[0]) + left, int(inside[-1]) + 1 - left)
 
 
@@ -132,7 +124,7 @@ class _Region:
 
     def peak(self, found: Sequence[WaveVector]) -> tuple[float, float] | None:
         """Return the highest peak of the spectrum without waves found, and away from them."""
-        ny, nx = (_PADDED * size for size in self.shape)
+        ny, nx = (4 * size for size in self.shape)  # with zeros beyond
         matrix = self._columns([(wave.along, wave.across) for wave in found])
         left = self.weight * (self.heights - matrix @ self._solved(matrix))
         spectrum = np.abs(np.fft.rfft2(left.reshape(self.shape), s=(ny, nx)))
@@ -140,14 +132,15 @@ class _Region:
         across = 2.0 * math.pi * np.fft.fftfreq(ny, self.step[1]).astype(np.float64)[:, None]
 
         def apart(vector: tuple[float, float], waves: float) -> BoolArray:
+            """Return where a vector is so many waves over the whole region away."""
             bins = self.bins
             distance = np.hypot((along - vector[0]) / bins[0], (across - vector[1]) / bins[1])
             return np.asarray(distance >= waves)
 
-        allowed = apart((0.0, 0.0), _LONGEST_WAVE)
+        allowed = apart((0.0, 0.0), 1.5)
         for wave in found:
             for sign in (1.0, -1.0):
-                allowed &= apart((sign * wave.along, sign * wave.across), _SEPARATION)
+                allowed &= apart((sign * wave.along, sign * wave.across), 2.0)
         spectrum = np.where(allowed, spectrum, 0.0)
         row, column = np.unravel_index(np.argmax(spectrum), spectrum.shape)
         if not spectrum[row, column] > 0:
@@ -156,9 +149,9 @@ class _Region:
 
     def refined(self, vectors: Sequence[tuple[float, float]]) -> list[WaveVector]:
         """Return waves whose vectors fit best, by Gauss and Newton; none leaves its peak."""
-        start, limit = np.array(vectors), _MOVES * self.bins
+        start, limit = np.array(vectors), 0.35 * self.bins
         place = start.copy()
-        for _ in range(_SEARCH_STEPS):
+        for _ in range(8):
             pairs, matrix = self._pairs(place)
             slopes = [
                 axis * (b * matrix[:, 2 * n] - a * matrix[:, 2 * n + 1])
@@ -168,7 +161,7 @@ class _Region:
             moves = self._solved(np.column_stack([matrix, *slopes]))[matrix.shape[1] :]
             before = place
             place = start + np.clip(place + moves.reshape(-1, 2) - start, -limit, limit)
-            if np.all(np.abs(place - before) < _SETTLED * self.bins):
+            if np.all(np.abs(place - before) < 1e-6 * self.bins):
                 break
         amplitudes = np.hypot(*self._pairs(place)[0].T)
         return [

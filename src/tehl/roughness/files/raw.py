@@ -16,7 +16,6 @@ LARGEST_FILE = 2 * 10**9
 """Bytes of a file."""
 HDF5 = b"\x89HDF"
 """The first bytes of a file in HDF5."""
-_UNEVENNESS = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -83,7 +82,7 @@ def step(places: Array, axis: str) -> float:
     if distances.size == 0:
         raise InputError(f"has one point along {axis}, which is not a map")
     mean = float(np.mean(distances))
-    if not (mean > 0 and np.abs(distances - mean).max() <= _UNEVENNESS * mean):
+    if not (mean > 0 and np.abs(distances - mean).max() <= 1e-3 * mean):
         raise InputError(f"has points along {axis} that do not follow at equal, rising distances")
     return mean
 

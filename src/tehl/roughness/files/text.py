@@ -19,8 +19,6 @@ Layout = Literal["auto", "matrix", "xyz"]
 _LARGEST_TEXT = 10**9
 _COMMENT = ("#", "%", "//")
 _MISSING = {"": "nan", "na": "nan", "n/a": "nan", "bad": "nan", "***": "nan", "-": "nan"}
-_LEAST_COVERED = 0.5
-_SPACING_TOLERANCE = 1e-6
 
 
 def read_text(path: Path, layout: Layout) -> RawMap:
@@ -173,7 +171,7 @@ def _lattice(table: Array) -> RawMap:
     (x, column), (y, row) = _places(table[:, 0]), _places(table[:, 1])
     shape = (y.size, x.size)
     covered = table.shape[0] / (y.size * x.size)
-    if min(shape) < 2 or not _LEAST_COVERED <= covered:
+    if min(shape) < 2 or not covered >= 0.5:
         raise InputError(
             "has three columns whose first two are not a lattice of x and y: give x, y and z; a "
             "table of heights three points wide is not a map"
@@ -189,7 +187,7 @@ def _lattice(table: Array) -> RawMap:
 def _places(column: Array) -> tuple[Array, "np.ndarray"]:
     """Return the different values of a column, and which of them each row has."""
     values = np.sort(column)
-    near = _SPACING_TOLERANCE * max(values[-1] - values[0], 0.0)
+    near = 1e-6 * max(values[-1] - values[0], 0.0)
     first = np.concatenate(([True], np.diff(values) > near))
     places = values[first]
     return places, np.abs(np.searchsorted(places, column + near, side="right") - 1)

@@ -29,12 +29,8 @@ from tehl.studies.fitting.model import Model
 
 CONFIDENCE = 0.95
 """Probability of the intervals."""
-_LEAST_CURVATURE = 1e-8
-"""Added to the sum of squares over the logarithms, so that constants without effect are open."""
 _NORMAL_DEGREES = 1e6
 """Degrees of freedom from which on t is normal."""
-_NOISE_ROUNDS = 6
-"""Most repetitions of noise and constants."""
 _SAME_NOISE = 0.02
 """Relative change at which the noise is known well enough."""
 _LEAST_NOISE = 1e-4
@@ -43,10 +39,6 @@ _FIRST_NOISE = 0.03
 """Noise over the value, or over the largest one, with which the fit begins."""
 _LEAST_DECREASE = 1e-3
 """Relative decrease of the sum of squares, or change of the constants, at which a fit stops."""
-_MOST_EVALUATIONS = 40
-"""Of the sum of squares in one minimisation."""
-_PROFILE_ROUNDS = 6
-"""Most places at which an end of an interval is sought."""
 _PROFILE_ACCURACY = 0.1
 """Relative error of the distance of an end that a linear step may still remove."""
 _LARGEST_END_FACTOR = 3.0
@@ -96,7 +88,7 @@ def estimate(model: Model, measured: Array, stated: Array) -> Estimate:
     unit = np.where([KINDS[kind].is_relative for kind in kinds], measured, 1.0)
     noises = {kind: _first_noise(kind, measured[kinds == kind]) for kind in unknown}
     x, noise = np.zeros(len(model.constants)), stated
-    for _ in range(_NOISE_ROUNDS):
+    for _ in range(6):
         drawn = np.array([noises.get(kind, np.nan) for kind in kinds]) * unit
         noise = np.where(np.isnan(stated), drawn, stated)
         x = _minimised(model, x, measured, noise)
@@ -107,7 +99,8 @@ def estimate(model: Model, measured: Array, stated: Array) -> Estimate:
     residual = (values - measured) / noise
     left = measured.size - x.size
     scatter = float(residual @ residual) / left if left else 1.0
-    inverse = np.linalg.inv(jacobian.T @ jacobian + _LEAST_CURVATURE * np.eye(x.size))
+    # with a least curvature, so that constants without effect are open
+    inverse = np.linalg.inv(jacobian.T @ jacobian + 1e-8 * np.eye(x.size))
     gain = inverse @ jacobian.T
     found = Estimate(
         x=x,
@@ -183,7 +176,7 @@ def _minimised(model: Model, start: Array, measured: Array, noise: Array) -> Arr
         bounds=(low, high),
         ftol=_LEAST_DECREASE,
         xtol=_LEAST_DECREASE,
-        max_nfev=_MOST_EVALUATIONS,
+        max_nfev=40,
     )
     return np.asarray(found.x)
 
@@ -222,7 +215,7 @@ def _end(model: Model, measured: Array, found: Estimate, k: int, quantile: float
     step = math.copysign(math.sqrt(found.covariance[k, k]), quantile) * abs(quantile)
     low, high = limits(model)
     grown = 0.0
-    for _ in range(_PROFILE_ROUNDS):
+    for _ in range(6):
         place = min(max(found.x[k] + step, low[k]), high[k])
         step = place - found.x[k]
         grown = _profile(model, measured, found, k, found.x + step * along) - least

@@ -28,7 +28,6 @@ _LEAST_DURBIN_WATSON, _FEWEST_IN_ORDER = 1.0, 6
 which they follow a curve; values from which on it is judged."""
 _LARGEST_SCATTER = 4.0
 """Mean square of the residuals over the stated noise that the model may have."""
-_MOST_OUTLIERS = 5
 
 
 def remarks(
@@ -97,7 +96,7 @@ def _of_residuals(table: "pd.DataFrame") -> Iterator[str]:
                 "have 2): case or law miss something, and the intervals are too narrow"
             )
     far = table[table["residual"].abs() > _OUTLIER]
-    for _, row in far.head(_MOST_OUTLIERS).iterrows():
+    for _, row in far.head(5).iterrows():
         yield (
             f"{row['point']}: {row['kind']} is {abs(row['residual']):.1f} times the noise off the "
             "fit: check the point, or remove it"
