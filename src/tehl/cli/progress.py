@@ -55,12 +55,8 @@ _STEP: Columns = {
     "p max [GPa]": (11, "{pressure:.4f}"),
     "left [s]": (8, "{left}"),
 }
-_PLAIN_LINES, _LIVE_STEPS = 20, 10
-"""Of a transient run: plain lines, and steps in the live view."""
 _SILENT = 2.0
 """Seconds after which a live view that does not change shows the time."""
-_LINE_SECONDS = 10.0
-"""Seconds between two plain lines of a study."""
 MOST_NAMED_CASES = 20
 """Failed cases that are named."""
 
@@ -238,7 +234,7 @@ class _StepProgress(_Shown):
     def __init__(self, live: _Ticking | None, units: "Scales") -> None:
         super().__init__(live, _STEP)
         self._units = units
-        self._rows: deque[list[str]] = deque(maxlen=_LIVE_STEPS)
+        self._rows: deque[list[str]] = deque(maxlen=10)
         self._first: tuple[int, float] | None = None
         self._part: int | None = None
         self._steady = False
@@ -263,7 +259,7 @@ class _StepProgress(_Shown):
             pressure=report.pressure_max * self._units.hertz_pressure * 1e-9,
             left="" if left is None else f"{left:.0f}",
         )
-        part = report.step * _PLAIN_LINES // report.steps
+        part = report.step * 20 // report.steps
         if self._view is not None:
             self._rows.append(cells)
             self._show(report)
@@ -338,7 +334,8 @@ class StudyProgress(_Shown):
             cause = (row.cause or row.status).replace("_", " ")
             self.message(f"failed: {case.name}: {cause}")
         now = self._clock()
-        if self._task is None and (now - self._last >= _LINE_SECONDS or not self.open):
+        # plain lines are 10 s apart
+        if self._task is None and (now - self._last >= 10.0 or not self.open):
             self._last = now
             self.message(self.counts)
         self._show()

@@ -209,7 +209,7 @@ def _changed(
     if deeper:
         below = after.get(key, {})
         if isinstance(below, str) and key in _LIBRARIES:
-            below = from_name(key, below)
+            below = {_LIBRARIES[key]: below}  # the table that starts from this name
         if not isinstance(below, Mapping):
             raise InputError(f"{'.'.join(keys)} goes through {short(key)}, which is not a table")
         after[key] = _changed(below, deeper, value, removes=removes)
@@ -228,11 +228,6 @@ def _is_switch(path: str) -> bool:
     *above, last = keys.split(".")
     field = field_at(models_at(model, tuple(above))[-1], last)
     return field is not None and bool in (field.annotation, *get_args(field.annotation))
-
-
-def from_name(key: str, name: str) -> dict[str, Any]:
-    """Return the table that starts from the oil or the solid called ``name``."""
-    return {_LIBRARIES[key]: name}
 
 
 def found_at(problem: ContactProblem, options: Options, path: str) -> tuple[Any, Quantity | None]:

@@ -7,26 +7,12 @@ from tehl.base.errors import InputError
 
 _NAMES = {
     "cases": (
-        *(
-            "ball-on-disc",
-            "moes",
-            "bearing",
-            "gear-ellipse",
-            "line",
-            "roller",
-            "rough",
-            "thermal",
-            "dimple",
-        ),
-        *("data-sheet", "passing-dent", "starved", "grease-decay", "mixed", "boundary-film"),
-        *("gear-mesh", "reversal", "stress", "dynamics", "hypoid", "spin", "rib"),
+        *("ball-on-disc", "moes", "bearing", "gear-ellipse", "line", "roller", "rough", "thermal"),
+        *("dimple", "data-sheet", "passing-dent", "starved", "grease-decay", "mixed"),
+        *("boundary-film", "gear-mesh", "reversal", "stress", "dynamics", "hypoid", "spin", "rib"),
     ),
     "studies": (
-        "traction-curve",
-        "film-vs-speed",
-        "film-vs-load",
-        "moes-map",
-        "stribeck",
+        *("traction-curve", "film-vs-speed", "film-vs-load", "moes-map", "stribeck"),
         "starvation-curve",
     ),
 }

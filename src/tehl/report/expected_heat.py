@@ -25,7 +25,6 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from tehl.contact.heat import FilmEnergy
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.bodies import NotBalancedError, balanced
 from tehl.estimate.film_formulas import expected_film
@@ -63,7 +62,7 @@ class BodyEffect:
 def body_effect(scaled: ScaledProblem) -> BodyEffect | None:
     """Return the effect of the bodies on the film; None within 3 K of the inlet temperature."""
     heat = scaled.problem.heat
-    if not isinstance(heat, FilmEnergy):
+    if heat is None:
         return None
     first, second = heat.bulk_1 - heat.temperature, heat.bulk_2 - heat.temperature
     if max(abs(first), abs(second)) < NOTICEABLE:
@@ -228,7 +227,7 @@ def _heat_path(
     return _HeatPath(
         resistance=(resistance[0], resistance[1]),
         film=film / (problem.lubricant.ambient_conductivity or TYPICAL_CONDUCTIVITY),
-        bulk=(heat.bulk_1, heat.bulk_2) if isinstance(heat, FilmEnergy) else (inlet, inlet),
+        bulk=(inlet, inlet) if heat is None else (heat.bulk_1, heat.bulk_2),
     )
 
 

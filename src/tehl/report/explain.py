@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from tehl.base.errors import InputError
 from tehl.base.lazy import lazy
-from tehl.contact.heat import FilmEnergy, source_form
+from tehl.contact.heat import source_form
 from tehl.contact.options import Domain, Options
 from tehl.contact.problem import HOTTEST_TEMPERATURE, ContactProblem
 from tehl.estimate.cpu_time import expected_seconds, seconds_range
@@ -55,8 +55,6 @@ NO_BALANCE = (
 )
 FILMS = 6
 """Films that are solved until the heat of the bodies is balanced: 5 to 10."""
-LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
-"""Temperature rise [K] and traction coefficient below which no number is shown."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, repr=False)
@@ -131,7 +129,11 @@ class Explanation:
     @property
     def sources(self) -> tuple[str | None, ...]:
         """Moving source of either surface in a thermal run; None where a property is missing."""
-        return _sources(self.scaled.problem)
+        problem = self.scaled.problem
+        stated = "auto" if problem.heat is None else problem.heat.sources
+        return tuple(
+            None if one is None else source_form(stated, one) for one in problem.solid_peclet
+        )
 
     @property
     def domain(self) -> Domain:
@@ -269,11 +271,6 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     )
 
 
-def _sources(problem: ContactProblem) -> tuple[str | None, ...]:
-    stated = problem.heat.sources if isinstance(problem.heat, FilmEnergy) else "auto"
-    return tuple(None if one is None else source_form(stated, one) for one in problem.solid_peclet)
-
-
 def as_text(case: Explanation) -> str:
     """Return an explanation in lines of plain text."""
     problem = case.scaled.problem
@@ -285,8 +282,8 @@ def as_text(case: Explanation) -> str:
         available=available_memory(),
         converges=CONVERGES,
         inlet_factors=inlet_factors(problem),
-        least_rise=LEAST_RISE,
-        least_traction=LEAST_TRACTION,
+        least_rise=0.1,  # [K], below which no number is shown
+        least_traction=1e-4,
         loading=problem.thermal_loading,
         regime=regime(case.scaled.groups),
         resolves=RESOLVES,

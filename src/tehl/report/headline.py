@@ -10,15 +10,7 @@ Summary = Mapping[str, Any]
 
 
 def as_line(kind: str, summary: Summary) -> str:
-    """Return a summary in one line, for ``repr`` of a class ``kind``.
-
-    Parameters
-    ----------
-    kind : str
-        Name of the class.
-    summary : Summary
-        As of ``summary()``, with title, status and numbers in SI.
-    """
+    """Return a summary in one line, for ``repr`` of a class called ``kind``."""
     status, *others = headline(summary).items()
     numbers = ", ".join(f"{name} {value}" for name, value in others)
     return f"<{kind} {summary['title']!r}: {status[1]}, {numbers}>"

@@ -33,20 +33,9 @@ isothermal film is not plausible [K]."""
 UNPHYSICAL, UNPHYSICAL_STRESS = 0.8e9, 1.0
 """Hertz pressure from which on a sliding Newtonian film is not plausible [Pa], and stress over the
 pressure, before heat, from which on one that thins is not."""
-SLOWEST_LINE = 5.0
-"""Solid Peclet number below which a line source deviates by more than four per cent."""
-NEAR_EDGE_RATIO, LEAST_DOMAIN_ERROR = 0.95, 0.005
-"""Edge of a stated domain over the recommended one below which it is mentioned, and error of the
-film by zero pressure on the edges from which on it is."""
-LEAST_CONFORMITY, LARGEST_CONFORMITY = 1.005, 1.25
-"""Radius of the groove of a bearing over that of its ball: conformities of 0.5025 to 0.625."""
 THICK_FILM = 0.01
 """Film over the reduced radius from which on the gap of a film is steep: its slope is 0.14 where it
 is twice as wide as at the centre."""
-MOLECULAR, STEEP_SLOPE = 5e-9, 0.1
-"""Film below which the oil is not a continuum [m], slope beyond which Reynolds' equation fails."""
-LARGEST_REACH = 0.5
-"""Inlet over the radius of a body from which on its gap is not that of a parabola: 7 % less."""
 STEEP_HEIGHTS = 0.6
 """Rms pressure that flattens the heights over p_h, from which on runs may not converge: of random
 surfaces (M = 16 to 500) 0.41 and 0.56 take a second, 0.64 with heat minutes, of those with 0.79 and
@@ -165,7 +154,8 @@ def _about_groove(problem: ContactProblem) -> Iterator[str]:
     surfaces = {"surface_1": problem.surface_1, "surface_2": problem.surface_2}
     for name, other in (("surface_1", "surface_2"), ("surface_2", "surface_1")):
         ball, across = surfaces[other].radius, surfaces[name].radius_y
-        if ball and across and LEAST_CONFORMITY <= across / ball <= LARGEST_CONFORMITY:
+        # conformities of 0.5025 to 0.625
+        if ball and across and 1.005 <= across / ball <= 1.25:
             yield (
                 f"{name}.radius_y = {1e3 * across:.4g} mm: the surface is convex across the "
                 f"rolling direction; the groove of a ball has a negative radius_y, "
@@ -269,7 +259,7 @@ def _about_film(scaled: ScaledProblem) -> Iterator[str]:
             "radius: Reynolds' equation needs a thin one, and a run accepts "
             f"{LARGEST_FILM_PART:g} at most; {thick_film_advice(scaled.problem)}"
         )
-    if film < MOLECULAR:
+    if film < 5e-9:
         yield (
             f"the expected film of {film * 1e9:.2g} nm is a few molecules: the oil is not a "
             "continuum there, check speed and viscosity"
@@ -331,7 +321,8 @@ def _about_heat(problem: ContactProblem, heat: ExpectedHeat | None) -> Iterator[
             f'{LAYERS["uniform"]} or more, or scheme = "chebyshev"'
         )
     for name, peclet in zip(("surface_1", "surface_2"), problem.solid_peclet, strict=True):
-        if thermal.sources == "line" and peclet is not None and peclet < SLOWEST_LINE:
+        # a line source deviates by more than four per cent
+        if thermal.sources == "line" and peclet is not None and peclet < 5.0:
             yield (
                 'thermal.sources = "line": valid for fast surfaces, but the Peclet number of '
                 f'{name} is {peclet:.2g}; take "auto"'
@@ -358,7 +349,7 @@ def _about_domain(options: Options, scaled: ScaledProblem) -> Iterator[str]:
     reach = -domain_of(scaled, options).x[0] * scaled.problem.hertz.half_width_x
     bodies = (scaled.problem.surface_1.radii, scaled.problem.surface_2.radii)
     least = min((abs(radii.x) for radii in bodies if radii), default=math.inf)
-    if reach > LARGEST_REACH * least:
+    if reach > 0.5 * least:  # where the gap is 7 % less than that of a parabola
         yield (
             f"the inlet is {1e3 * reach:.3g} mm long, but a body has a radius of {1e3 * least:.3g} "
             "mm: its gap is taken as a parabola; check the radii, and the load"
@@ -369,7 +360,7 @@ def _about_domain(options: Options, scaled: ScaledProblem) -> Iterator[str]:
     names = ("inlet edge x", "outlet edge x", "side edge y", "side edge y")
     edges = zip(names, (*stated.x, *stated.y), (*wanted.x, *wanted.y), strict=True)
     for name, here, there in edges:
-        if abs(here) < NEAR_EDGE_RATIO * abs(there):
+        if abs(here) < 0.95 * abs(there):
             yield (
                 f"numerics.domain has its {name} at {here:g}, recommended is {there:.3g}: the "
                 "error of the film from the domain may be large"
@@ -377,7 +368,7 @@ def _about_domain(options: Options, scaled: ScaledProblem) -> Iterator[str]:
     if options.has_far_field:
         return
     missing = domain_error(scaled.entering, stated)
-    if missing > LEAST_DOMAIN_ERROR:
+    if missing > 0.005:
         yield (
             "numerics.domain: zero pressure on its edges may change the film by up to "
             f'{percentage(missing)}; remove the domain, or set numerics.edges = "far_field"'
@@ -426,7 +417,7 @@ def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -
             f"converge; {enough} put {CONVERGES} on it, {better} the {RESOLVES} that its ripples "
             "need"
         )
-    if found.steepest > STEEP_SLOPE:
+    if found.steepest > 0.1:
         yield (
             f"the surfaces have slopes up to {found.steepest:.2g}: Reynolds' equation needs small "
             "ones, check the units of height and length"
