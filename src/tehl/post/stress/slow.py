@@ -195,7 +195,7 @@ def _axis(step: float, number: int, part: slice, warm: float) -> _Axis:
 def _quadrature(most: float, panel: float, halvings: int) -> tuple[Array, Array]:
     """Return nodes and weights of a quadrature from zero to ``most``, denser towards zero.
 
-    Panels are at most as wide as ``panel``, and the first one is halved so many times.
+    Panels are at most as wide as ``panel``, and the first one is halved ``halvings`` times.
     """
     ends = np.linspace(0.0, most, int(np.ceil(most / panel)) + 1)
     ends = np.concatenate([[0.0], ends[1] * 0.5 ** np.arange(halvings, 0, -1), ends[1:]])

@@ -132,7 +132,7 @@ class _Region:
         across = 2.0 * math.pi * np.fft.fftfreq(ny, self.step[1]).astype(np.float64)[:, None]
 
         def apart(vector: tuple[float, float], waves: float) -> BoolArray:
-            """Return where a vector is so many waves over the whole region away."""
+            """Return where a vector is at least ``waves`` waves over the region away."""
             bins = self.bins
             distance = np.hypot((along - vector[0]) / bins[0], (across - vector[1]) / bins[1])
             return np.asarray(distance >= waves)
