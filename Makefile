@@ -43,7 +43,7 @@ test: $(DEV)  ## the tests that run each time, on all cores
 	$(BIN)/python -m pytest -m "not slow" --ignore tests/browser --numprocesses auto --maxprocesses 8 --dist loadfile
 
 test-browser: $(DEV)  ## the live page in chromium, which must be installed
-	$(BIN)/python -m pytest tests/browser --numprocesses 2 --dist loadfile
+	$(BIN)/python -m pytest tests/browser --numprocesses 2 --dist worksteal
 
 check: $(DEV)  ## style, formatting, types and floors
 	$(BIN)/ruff check .

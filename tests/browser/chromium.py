@@ -13,10 +13,9 @@ ARGUMENTS = (
     "--disable-sync",
 )
 """A browser that calls nobody."""
-SOLID = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-"""It draws in three dimensions without a graphics card, on the processor."""
-FLAT = ("--disable-gpu",)
-"""It does not, and leaves the processor to others."""
+FLAT = ("--disable-gpu", "--enable-unsafe-swiftshader")
+"""It draws pages without a graphics card and without emulating one, which takes most of the time;
+what is drawn in three dimensions is emulated."""
 
 
 def executable() -> str | None:

@@ -1,4 +1,7 @@
-"""A running page and a browser for the tests in this folder; skipped where there is no browser."""
+"""A running page and a browser for the tests in this folder; skipped where there is no browser.
+
+Each process of the tests has one server, one browser, and one page that most of its tests share.
+"""
 
 import os
 import re
@@ -10,16 +13,20 @@ from pathlib import Path
 
 import pytest
 
-from tehl.explore.case_text import CaseText
+from tehl.explore.case_text import CaseText, template_case
 from tehl.io.templates import template_text
-from tehl.kernels.warmup import warm_up
-from tests.browser.chromium import ARGUMENTS, SOLID, executable
+from tehl.kernels.cache import is_cold
+from tests.browser.chromium import ARGUMENTS, FLAT, executable
 
 pytest.importorskip("nicegui", reason="needs pip install 'tehl[explore]'")
 api = pytest.importorskip("playwright.sync_api", reason="needs pip install playwright")
 
 PATIENCE = 60_000
 """Milliseconds for what is expected; a busy machine is slow."""
+DESK = {"width": 1440, "height": 900}
+"""The window."""
+BALL = template_case("ball-on-disc").text
+"""The case that a page has at first."""
 
 
 class Served:
@@ -55,6 +62,14 @@ class Served:
             if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()
         ]
 
+    def solving(self):
+        """Return those that solve now."""
+        return [
+            pid
+            for pid in self.workers()
+            if Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "R"
+        ]
+
     def end(self):
         """End it as Ctrl-C does; return its exit code."""
         if self.process.poll() is None:
@@ -74,16 +89,17 @@ def browser():
     if path is None:
         pytest.skip("chromium is not installed")
     with api.sync_playwright() as playwright:
-        yield playwright.chromium.launch(executable_path=path, args=[*ARGUMENTS, *SOLID])
+        yield playwright.chromium.launch(executable_path=path, args=[*ARGUMENTS, *FLAT])
 
 
 @pytest.fixture(scope="session")
 def compiled():
     """The kernels in the cache: a page that compiles them first may need more than `PATIENCE`."""
-    warm_up(coupled=True)
+    if is_cold(coupled=True):
+        subprocess.run([sys.executable, "-m", "tehl", "doctor", "--warm"], check=True)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def served(tmp_path_factory, compiled):
     del compiled
     server = Served(folder=tmp_path_factory.mktemp("served"))
@@ -93,9 +109,9 @@ def served(tmp_path_factory, compiled):
     assert "Traceback" not in errors, errors
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def shared_context(browser):
-    made = browser.new_context(viewport={"width": 1440, "height": 900}, accept_downloads=True)
+    made = browser.new_context(viewport=DESK, accept_downloads=True, reduced_motion="reduce")
     made.set_default_timeout(PATIENCE)
     made.kept = None
     made.failures = []
@@ -108,7 +124,7 @@ def shared_context(browser):
 
 @pytest.fixture
 def context(shared_context):
-    """The context of all pages of a module, so that they share the cache of the browser."""
+    """The context of all pages, so that they share the cache of the browser."""
     shared_context.failures.clear()
     yield shared_context
     for page in shared_context.pages:
@@ -118,22 +134,46 @@ def context(shared_context):
 
 
 @pytest.fixture
-def page(context, served):
-    return opened(context, served.address)
+def page(context, served, request):
+    """The shared page with the first case, whatever a test before has made of it.
+
+    A page is opened anew where a test has failed since, so that others do not fail with it.
+    """
+    failed = request.session.testsfailed
+    if context.kept is None or context.failed != failed:
+        context.kept, context.failed = opened(context, served.address), failed
+    restore(context.kept)
+    return context.kept
 
 
-@pytest.fixture(scope="module")
-def kept_page(shared_context, served):
-    shared_context.kept = opened(shared_context, served.address)
-    return shared_context.kept
+def restore(page):
+    """Take the first case and its film, without dialogs and notices."""
+    page.bring_to_front()
+    page.set_viewport_size(DESK)
+    page.emulate_media(color_scheme="light")
+    page.keyboard.press("Escape")
+    page.locator(".q-dialog").first.wait_for(state="detached")
+    for note in page.get_by_role("alert").get_by_role("button", name="close").all():
+        note.click()
+    page.get_by_role("tab", name="Film", exact=True).click()
+    if case_of(page) != BALL or page.locator(".light.bad").count():
+        page.get_by_role("button", name="Templates").click()
+        page.locator(".menu-name", has_text=re.compile("^ball-on-disc$")).click()
+        until(lambda: case_of(page) == BALL)
+    solved(page)
 
 
-@pytest.fixture
-def same_page(context, kept_page):
-    """One page for all tests of a module that leave the case as it is; its view may be any."""
-    del context
-    kept_page.bring_to_front()
-    return kept_page
+def case_of(page):
+    """Return the text of the case in the address of a page."""
+    packed = page.evaluate("location.href").partition("case=")[2]
+    return CaseText.unpacked(packed).text if packed else None
+
+
+def take(page, text, name="case.toml"):
+    """Open a case as a file."""
+    page.get_by_role("button", name="Open", exact=True).click()
+    file = {"name": name, "mimeType": "text/plain", "buffer": text.encode()}
+    page.locator("input[type=file]").set_input_files(file)
 
 
 def opened(context, address):
@@ -144,14 +184,11 @@ def opened(context, address):
     return page
 
 
-def busy(context, address):
-    """Return a page that shows 129² nodes, and whose worker solves 1025², for seconds."""
-    case = template_text("thermal").replace('error = "2 %"', "points = 1025")
-    page = context.new_page()
-    page.goto(f"{address}&case={CaseText(case).packed}")
+def busy(page):
+    """Show 129² nodes of a contact whose worker solves 1025², for seconds."""
+    take(page, template_text("thermal").replace('error = "2 %"', "points = 1025"))
     finer = re.compile("(257|513|1025) nodes, cycle")
     page.locator(".status-words", has_text=finer).wait_for()
-    return page
 
 
 def solved(page, words="converged on"):

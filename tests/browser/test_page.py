@@ -5,12 +5,22 @@ import json
 import math
 import subprocess
 import sys
+from urllib.parse import urlsplit
 
-from tehl.explore.case_text import CaseText, template_case
+from tehl.explore.case_text import CaseText
+from tehl.explore.header import THEME
 from tehl.io.templates import template_text
-from tests.browser.conftest import api, number, opened, solved, type_into, until
-
-BALL = template_case("ball-on-disc").text
+from tests.browser.conftest import (
+    BALL,
+    api,
+    case_of,
+    number,
+    opened,
+    solved,
+    take,
+    type_into,
+    until,
+)
 
 
 def printed_by_solve(case, folder):
@@ -68,8 +78,7 @@ def test_pinned_and_present_state_stand_side_by_side_with_one_scale(page):
     until(lambda: page.locator(".slot-title:visible").count() == 0)
 
 
-def test_each_view_draws(same_page):
-    page = same_page
+def test_each_view_draws_and_no_request_leaves_the_machine(page, context):
     for view, found in (
         ("Pressure", "map of the pressure"),
         ("Centre lines", "film and pressure over x"),
@@ -82,13 +91,18 @@ def test_each_view_draws(same_page):
     page.get_by_text("This contact is isothermal").wait_for()
     page.get_by_role("tab", name="3-D film").click()
     page.locator(".js-plotly-plot .gl-container").wait_for(state="attached")
+    hosts = {urlsplit(url).hostname for url in context.requests if url.startswith(("http", "ws"))}
+    assert hosts == {"127.0.0.1"}
 
 
-def test_the_value_under_the_pointer_is_shown(same_page):
-    page = same_page
+def test_the_value_under_the_pointer_is_shown(page):
     page.get_by_role("tab", name="Film", exact=True).click()
-    page.locator(".slot:visible .drawing > svg").hover(position={"x": 300, "y": 250})
-    page.locator(".readout", has_text="nm").wait_for()
+    shown = set()
+    for x in (300, 400):
+        page.locator(".slot:visible .drawing > svg").hover(position={"x": x, "y": 250})
+        readout = page.locator(".readout", has_text="nm").first
+        until(lambda readout=readout: readout.is_visible() and readout.inner_text() not in shown)
+        shown.add(readout.inner_text())
 
 
 def test_a_sweep_shows_points_as_they_are_solved(page):
@@ -107,10 +121,17 @@ def test_a_sweep_shows_points_as_they_are_solved(page):
     page.get_by_text("The contact has changed since").wait_for()
 
 
-def test_a_sweep_can_be_cancelled(page):
+def test_a_faulty_sweep_is_a_sentence_and_a_long_one_can_be_cancelled(page):
     page.get_by_role("tab", name="Curves").click()
-    page.locator(".sweep-end input").nth(2).fill("101")
-    page.get_by_role("button", name="Solve", exact=True).click()
+    low, high, count = (page.locator(".sweep-end input").nth(k) for k in range(3))
+    solve = page.get_by_role("button", name="Solve", exact=True)
+    low.fill("5")
+    high.fill("1")
+    solve.click()
+    page.get_by_text("must be below to").wait_for()
+    low.fill("0.5")
+    count.fill("101")
+    solve.click()
     page.locator(".curves svg circle.point").first.wait_for()
     page.get_by_role("button", name="Cancel", exact=True).click()
     page.get_by_text("cancelled after").wait_for()
@@ -127,9 +148,7 @@ def test_a_saved_case_opens_again_and_the_address_reproduces_it(page, context, t
     assert saved.read_text() == BALL.replace('"80 N"', '"95 N"')
     link = page.evaluate("location.href")
     assert CaseText.unpacked(link.partition("case=")[2]).text == saved.read_text()
-    saved.write_text(saved.read_text().replace('"95 N"', '"110 N"'))
-    page.get_by_role("button", name="Open").click()
-    page.locator("input[type=file]").set_input_files(saved)
+    take(page, saved.read_text().replace('"95 N"', '"110 N"'), saved.name)
     entry = page.get_by_role("textbox", name="load", exact=True)
     until(lambda: entry.input_value() == "110")
     other = opened(context, link)
@@ -150,20 +169,8 @@ def test_a_faulty_entry_is_a_sentence_beside_its_control(page):
         solved(page)
 
 
-def test_a_faulty_sweep_is_a_sentence(same_page):
-    page = same_page
-    page.get_by_role("tab", name="Curves").click()
-    low, high = (page.locator(".sweep-end input").nth(k) for k in (0, 1))
-    low.fill("5")
-    high.fill("1")
-    page.get_by_role("button", name="Solve", exact=True).click()
-    page.get_by_text("must be below to").wait_for()
-
-
 def test_text_that_is_not_a_case_is_a_sentence(page):
-    page.get_by_role("button", name="Open").click()
-    file = {"name": "bad.toml", "mimeType": "text/plain", "buffer": b"load = = 80"}
-    page.locator("input[type=file]").set_input_files(file)
+    take(page, "load = = 80")
     page.get_by_text("is not valid TOML").wait_for()
 
 
@@ -173,18 +180,13 @@ def test_a_case_cannot_read_files_of_the_machine(page):
         text = BALL.replace("[surface_2]", f"[surface_2]\n{rough}").replace(
             'rms_roughness = "0.01 um"', ""
         )
-        page.get_by_role("button", name="Open").click()
-        file = {"name": "bad.toml", "mimeType": "text/plain", "buffer": text.encode()}
-        page.locator("input[type=file]").set_input_files(file)
+        take(page, text)
         refused = page.locator(".card .what", has_text="not a file of this page")
         refused.filter(has_text=name).wait_for()
 
 
 def test_a_result_that_does_not_converge_says_why_and_what_to_try(page):
-    page.get_by_role("button", name="Open").click()
-    text = BALL.replace('"80 N"', '"8000 N"').replace('error = "2 %"', "points = 33")
-    file = {"name": "coarse.toml", "mimeType": "text/plain", "buffer": text.encode()}
-    page.locator("input[type=file]").set_input_files(file)
+    take(page, BALL.replace('"80 N"', '"8000 N"').replace('error = "2 %"', "points = 33"))
     page.locator(".card .what", has_text="grid").wait_for()
     page.locator(".card .hint", has_text="hint:").wait_for()
     page.locator(".light.bad").wait_for()
@@ -192,8 +194,8 @@ def test_a_result_that_does_not_converge_says_why_and_what_to_try(page):
 
 def stated(page, path):
     """Return what the case in the address states at a path."""
-    packed = page.evaluate("location.href").partition("case=")[2]
-    return CaseText.unpacked(packed).get(path) if packed else None
+    text = case_of(page)
+    return CaseText(text).get(path) if text else None
 
 
 def measured(page):
@@ -216,14 +218,7 @@ def measured(page):
     return page.get_by_role("button", name="Use on surface 2")
 
 
-def test_an_uploaded_surface_is_shown_levelled_and_used(page):
-    measured(page).click()
-    until(lambda: stated(page, "surface_2.roughness.type") == "map")
-    assert stated(page, "surface_2.roughness.file") == "honed.csv"
-    assert stated(page, "surface_2.roughness.level") == "plane"
-
-
-def test_the_buttons_of_a_measured_surface_stay_where_they_are(page):
+def test_an_uploaded_surface_is_shown_levelled_and_used_by_buttons_that_stay_in_place(page):
     use = measured(page)
     use.hover(trial=True)  # once the dialog has opened
     before = use.bounding_box()
@@ -231,10 +226,14 @@ def test_the_buttons_of_a_measured_surface_stay_where_they_are(page):
     until(use.is_disabled)
     assert page.locator(".preview-words").inner_text().count("\n") == 0
     assert use.bounding_box() == before
+    type_into(page, "distance of points", "8 um")
+    use.click()
+    until(lambda: stated(page, "surface_2.roughness.type") == "map")
+    assert stated(page, "surface_2.roughness.file") == "honed.csv"
+    assert stated(page, "surface_2.roughness.level") == "plane"
 
 
-def test_files_of_a_result_are_downloaded(same_page):
-    page = same_page
+def test_files_of_a_result_are_downloaded(page):
     for words, start in (("Result, NetCDF", b"\x89HDF"), ("Picture, PNG", b"\x89PNG")):
         with page.expect_download() as download:
             page.get_by_role("button", name="Save", exact=True).click()
@@ -261,7 +260,8 @@ def test_the_buttons_undo_and_the_keyboard_redoes(page):
     until(lambda: entry.input_value() == "100")
 
 
-def test_the_theme_is_kept_over_a_reload(page):
+def test_the_theme_is_kept_over_a_reload(context, served):
+    page = opened(context, served.address)
     assert "body--dark" not in page.locator("body").get_attribute("class")
     button = page.get_by_role("button", name="dark or light")
     button.click()
@@ -271,18 +271,17 @@ def test_the_theme_is_kept_over_a_reload(page):
     solved(page)  # a click before the page listens is lost
     button.click()
     page.locator("body.body--light").wait_for()
+    context.clear_cookies(name=THEME)  # so that other pages follow the system
 
 
-def test_values_of_curves_are_read_under_the_pointer(same_page):
-    page = same_page
+def test_values_of_curves_are_read_under_the_pointer(page):
     page.get_by_role("tab", name="Centre lines").click()
     page.locator(".slot:visible .drawing > svg").first.hover(position={"x": 300, "y": 150})
     page.locator(".readout", has_text="Hertz").wait_for()
 
 
-def test_a_transient_run_plays_as_a_movie(context, served):
-    text = template_text("passing-dent").replace("points = 257", "points = 65")
-    page = opened(context, f"{served.address}&case={CaseText(text).packed}")
+def test_a_transient_run_plays_as_a_movie(page):
+    take(page, template_text("passing-dent").replace("points = 257", "points = 65"))
     page.get_by_role("tab", name="Movie").click()
     page.get_by_role("button", name="Solve the run").click()
     page.get_by_role("slider", name="time").wait_for(timeout=60_000)

@@ -4,8 +4,6 @@ import os
 import re
 import signal
 import socket
-import subprocess
-import sys
 import time
 import urllib.error
 import urllib.request
@@ -70,15 +68,6 @@ def test_the_page_is_on_the_loopback_address_only(served):
     assert listening == [f"0100007F:{port:04X}"]
 
 
-def test_no_request_leaves_the_machine(same_page, context):
-    page = same_page
-    for view in ("Pressure", "Centre lines", "Curves", "3-D film"):
-        page.get_by_role("tab", name=view).click()
-        page.wait_for_timeout(200)
-    hosts = {urlsplit(url).hostname for url in context.requests if url.startswith(("http", "ws"))}
-    assert hosts == {"127.0.0.1"}
-
-
 def test_two_tabs_are_independent(page, context, served):
     other = opened(context, served.address)
     first = number(page, "h_central")
@@ -89,9 +78,10 @@ def test_two_tabs_are_independent(page, context, served):
     assert page.get_by_role("textbox", name="load", exact=True).input_value() == "80"
 
 
-def test_a_killed_worker_is_a_sentence_and_a_new_one_solves(context, served):
-    page = busy(context, served.address)
-    for pid in served.workers():
+def test_a_killed_worker_is_a_sentence_and_a_new_one_solves(page, served):
+    busy(page)
+    until(served.solving)
+    for pid in served.solving():
         os.kill(pid, signal.SIGKILL)
     page.locator(".card .what", has_text="has ended").wait_for()
     solved(page, "shown is the last valid case")  # the line moves once more, and a click misses
@@ -105,21 +95,10 @@ def test_a_damaged_address_is_a_sentence(context, served):
     page.get_by_text("the case in the address is damaged").wait_for()
 
 
-def test_a_slow_solve_can_be_stopped(context, served):
-    page = busy(context, served.address)
+def test_a_slow_solve_can_be_stopped(page):
+    busy(page)
     page.get_by_role("button", name="Stop").click()
     solved(page, "converged on 129 × 129")
-
-
-def test_a_port_that_is_taken_is_a_sentence(served):
-    command = [sys.executable, "-m", "tehl", "explore", "--no-browser", "--port"]
-    port = str(urlsplit(served.address).port)
-    found = subprocess.run(
-        [*command, port], check=False, capture_output=True, text=True, timeout=60
-    )
-    assert found.returncode == 2
-    assert found.stdout == ""
-    assert found.stderr.startswith(f"tehl: port {port} is taken")
 
 
 def test_a_tab_that_closes_while_it_loads_prints_nothing(served):
@@ -134,17 +113,6 @@ def test_a_tab_that_closes_while_it_loads_prints_nothing(served):
     assert "Traceback" not in served.errors()
 
 
-@pytest.mark.skipif(os.name == "nt", reason="needs /proc")
-def test_ctrl_c_leaves_nothing_behind(tmp_path):
-    server = Served(folder=tmp_path)
-    until(server.workers)
-    workers = server.workers()
-    assert server.end() == 0
-    until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers), 10)
-    assert [path.name for path in tmp_path.iterdir()] == ["explore.log"]
-    assert "Traceback" not in server.messages
-
-
 def test_a_link_that_is_too_long_is_a_sentence(served):
     for length in (70_000, 1_000_000):
         code, text = status_of(f"{served.address}&case={'a' * length}")
@@ -152,25 +120,36 @@ def test_a_link_that_is_too_long_is_a_sentence(served):
         assert "open the case as a file" in text
 
 
-def test_a_tab_of_a_page_that_was_started_again_names_the_new_address(browser, tmp_path, compiled):
+def test_ctrl_c_leaves_nothing_behind_and_a_tab_names_the_address_of_the_next_page(
+    browser, tmp_path, compiled
+):
     del compiled
-    context = browser.new_context()
+    context = browser.new_context(reduced_motion="reduce")
     context.set_default_timeout(PATIENCE)
     for name in ("first", "second"):
         (tmp_path / name).mkdir()
     first = Served(folder=tmp_path / "first")
     port = str(urlsplit(first.address).port)
     page = opened(context, first.address)
-    assert first.end() == 0
+    end(first, tmp_path / "first")
     page.get_by_text("The page has ended").wait_for()
     second = Served("--port", port, folder=tmp_path / "second")
     page.get_by_text("Open the new address").wait_for()
     context.close()
-    assert second.end() == 0
+    end(second, tmp_path / "second")
 
 
-def test_one_main_and_nothing_to_click_below_24_pixels(same_page):
-    page = same_page
+def end(server, folder):
+    """End a server by Ctrl-C; its workers and files are gone then."""
+    until(server.workers)
+    workers = server.workers()
+    assert server.end() == 0
+    until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers), 10)
+    assert [path.name for path in folder.iterdir()] == ["explore.log"]
+    assert "Traceback" not in server.messages
+
+
+def test_one_main_and_nothing_to_click_below_24_pixels(page):
     assert page.locator("main").count() == 1
     small = page.evaluate(
         """() => [...document.querySelectorAll(
