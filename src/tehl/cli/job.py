@@ -32,9 +32,6 @@ if TYPE_CHECKING:
 else:
     checkpoints = lazy("tehl.cli.checkpoint")
 
-COMPARED_TO = 1e-4
-"""Tolerance of runs that are compared: small differences need tightly converged films."""
-
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Job:
@@ -71,8 +68,8 @@ def run(job: Job) -> bool:
     _check_arguments(problem, job)
     wanted = zip(REFERENCES, (job.with_isothermal, job.with_smooth), strict=True)
     references = {name: REFERENCES[name](problem) for name, is_wanted in wanted if is_wanted}
-    if references and options.accuracy != "tight":
-        options = options.model_copy(update={"accuracy": "tight", "tolerance": COMPARED_TO})
+    if references and options.accuracy != "tight":  # small differences need it
+        options = options.model_copy(update={"accuracy": "tight", "tolerance": 1e-4})
     result, failure = _solved(problem, options, job)
     if job.as_json and problem.transient is None and isinstance(result, Result):
         result = solvers.with_work(result)  # takes a moment, so for programs only

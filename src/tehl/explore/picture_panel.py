@@ -26,10 +26,6 @@ from tehl.explore.relief import relief_figure
 from tehl.explore.shown import Shown
 from tehl.explore.tab import Tab
 
-_GAP, _BAR, _LEAST_WIDTH, _LINES_HEIGHT = 16.0, 70.0, 560.0, 440.0
-"""Pixels between two maps, of the colour bar of one of them, from which on both fit, and twice the
-height of the centre lines below."""
-
 
 class Slot:
     """A place for the view of one state."""
@@ -205,16 +201,16 @@ class PicturePanel:
     def _draw_beside(self, view: str, present: Shown, other: Shown) -> None:
         """Draw two states side by side, above their centre lines along x."""
         (width, height), limits = self.size, self.tab.scales.limits
-        wide = width > _LEAST_WIDTH
-        bar = _BAR if view in ("film", "pressure") else 0.0
+        wide = width > 560.0
+        bar = 70.0 if view in ("film", "pressure") else 0.0
         less, more = bar, 0.0  # both maps are of one size, and one has a colour bar
         if wide:
-            width = 0.5 * (width - _GAP)
+            width = 0.5 * (width - 16.0)
             less = more = 0.5 * bar
         self.pinned.draw(view, other, limits, (width - less, height))
         self.present.draw(view, present, limits, (width + more, height))
         if wide:
-            chart = line_charts(present, (self.size[0], _LINES_HEIGHT), limits["lines"], other)[0]
+            chart = line_charts(present, (self.size[0], 440.0), limits["lines"], other)[0]
             self.below.set_content(chart.overlay)
 
 

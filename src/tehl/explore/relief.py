@@ -11,11 +11,6 @@ from tehl.base.typing import Array
 from tehl.explore.colour_map import Limits
 from tehl.explore.shown import Maps
 
-_RAYS, _RINGS = 121, 48
-"""Rays around the centre on which the film is sampled, and places on each."""
-_SEARCHED = 200
-"""Places along a ray among which the rim is found."""
-
 
 def relief_figure(maps: Maps, limits: Limits, size: tuple[float, float]) -> dict[str, Any]:
     """Return the film as a surface, without what lies above the colours of its map."""
@@ -62,9 +57,9 @@ def _bowl(maps: Maps, top: float) -> tuple[Array, Array, Array]:
     """Return places [um] and film [nm] on rays that end where the film exceeds ``top``."""
     from scipy.ndimage import map_coordinates  # noqa: PLC0415 (with the first relief)
 
-    angle = np.linspace(0.0, 2.0 * np.pi, _RAYS)[:, None]
+    angle = np.linspace(0.0, 2.0 * np.pi, 121)[:, None]
     ax, ay = maps.half_widths
-    reach = np.full((_RAYS, 1), np.inf)
+    reach = np.full(angle.shape, np.inf)
     for edges, way in zip(maps.window, (ax * np.cos(angle), ay * np.sin(angle)), strict=True):
         edge = np.where(way > 0, edges[1], edges[0])
         reach = np.minimum(reach, np.abs(edge) / np.maximum(np.abs(way), 1e-9))
@@ -75,13 +70,13 @@ def _bowl(maps: Maps, top: float) -> tuple[Array, Array, Array]:
         columns = np.interp(x, maps.x, np.arange(len(maps.x)))
         return x, y, map_coordinates(maps.film, (rows, columns), order=1)
 
-    part = np.linspace(0.0, 1.0, _SEARCHED)
+    part = np.linspace(0.0, 1.0, 200)  # places among which the rim is found
     along = sampled(reach * part)[2]
-    last = _SEARCHED - 1 - np.argmax((along <= top)[:, ::-1], axis=1)[:, None]
-    after = np.minimum(last + 1, _SEARCHED - 1)
+    last = part.size - 1 - np.argmax((along <= top)[:, ::-1], axis=1)[:, None]
+    after = np.minimum(last + 1, part.size - 1)
     low, high = (np.take_along_axis(along, place, axis=1) for place in (last, after))
     rim = part[last] + np.clip((top - low) / np.maximum(high - low, 1e-9), 0.0, 1.0) * part[1]
-    x, y, film = sampled(reach * np.minimum(rim, 1.0) * np.linspace(0.0, 1.0, _RINGS))
+    x, y, film = sampled(reach * np.minimum(rim, 1.0) * np.linspace(0.0, 1.0, 48))
     return x, y, np.minimum(film, top)
 
 

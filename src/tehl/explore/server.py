@@ -25,8 +25,6 @@ else:
     pages = lazy("tehl.explore.page")
 
 ADDRESS = "127.0.0.1"
-USUAL_PORT = 8765
-"""Port that is taken if it is free, so that a stored address finds the page again."""
 REFUSED = (
     "This address lacks the token of the running page. Open the address that `tehl explore` has "
     "printed in its terminal."
@@ -198,12 +196,14 @@ async def _announce(port: int, address: str, report: Any) -> None:
 def _socket(wanted: int | None) -> socket.socket:
     """Return a socket that listens on a free port: the one wanted, the usual one, or any.
 
+    The usual one is taken if it is free, so that a stored address finds the page again.
+
     Raises
     ------
     InputError
         If the one wanted is taken.
     """
-    for port in (USUAL_PORT, 0) if wanted is None else (wanted,):
+    for port in (8765, 0) if wanted is None else (wanted,):
         found = socket.socket()
         if os.name == "posix":  # a port whose last page has just ended is free
             found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

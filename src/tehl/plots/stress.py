@@ -36,9 +36,6 @@ from tehl.result.transient import TransientSolution
 
 DEEPEST_SHOWN = 1.5
 """Depth that sections show [smaller half-widths of the Hertz contact]."""
-LONGEST_SECTION, STRETCHED_SECTION = 3.0, 2.0
-"""Length of a section over its depth up to which both have one scale, and of longer ones as drawn,
-which are stretched."""
 PLANES = {"x": "y = 0", "y": "x = 0"}
 """Plane of a section along x or y."""
 
@@ -141,13 +138,13 @@ def dress(axes: Axes, result: Solution, x: tuple[float, float], along: str = "x"
     x : (float, float)
         Ends of the section [µm].
     along : {"x", "y"}
-        Where it runs; a long one is stretched so that it can be read.
+        Where it runs; one longer than three depths is stretched, so that it can be read.
     """
     reach, scales = _reach(result) * MICRO, result.scales
     width = MICRO * (scales.half_width_x if along == "x" else scales.half_width_y)
     label = f"{along} {'along' if along == 'x' else 'across'} entrainment [µm]"
     length = (x[1] - x[0]) / reach
-    stretch = length / STRETCHED_SECTION if length > LONGEST_SECTION else 1.0
+    stretch = length / 2.0 if length > 3.0 else 1.0
     depth = stretched_label("depth z [µm]", stretch)
     axes.set(xlabel=label, ylabel=depth, xlim=x, ylim=(reach, 0.0))
     axes.set_aspect(stretch)

@@ -13,9 +13,6 @@ from tehl.plots.arrows import MICRO, outline
 from tehl.plots.frame import BLUE, ORANGE, PLAIN, STEPS, Picture, contact_rim
 from tehl.roughness.preview import Mesh, Preview, View, view
 
-_CLIPPED, _COUNTED_HEIGHTS = 0.1, 10**6
-"""Percentile of the heights that colours leave out, and the number of heights it is found from."""
-_SIZE, _NARROW_SIZE = (10.5, 5.4), 8.0
 _SLENDER_MAP = 2.0
 
 
@@ -32,7 +29,7 @@ def surface_preview(preview: Preview, *, title: bool | None = True) -> Figure:
     title : bool or None
         Whether the figure names file and statistics above.
     """
-    picture, seen = Picture(figsize=_SIZE, layout="constrained"), view(preview)
+    picture, seen = Picture(figsize=(10.5, 5.4), layout="constrained"), view(preview)
     width, height = seen.size
     if width > _SLENDER_MAP * height:
         parts = picture.subfigures(2, 1, squeeze=False, height_ratios=[0.8, 1.0])[:, 0]
@@ -42,7 +39,8 @@ def surface_preview(preview: Preview, *, title: bool | None = True) -> Figure:
         shares = [0.62 if slender else 1.35, 1.0]
         parts = picture.subfigures(1, 2, squeeze=False, width_ratios=shares)[0]
         panels = parts[1].subplots(2, 1)
-        picture.set_figwidth(_NARROW_SIZE if slender else _SIZE[0])
+        if slender:
+            picture.set_figwidth(8.0)
     found, name = preview.statistics, preview.file.rpartition("/")[2].replace("$", r"\$")
     heights = ", ".join(
         f"{word} = {_height(value)}"
@@ -70,8 +68,8 @@ def _draw_map(axes: Axes, preview: Preview, seen: View) -> None:
     (left, right), (bottom, top) = seen.window
     factor, unit = _height_unit(preview)
     few = preview.heights.values.ravel()
-    few = few[:: max(1, few.size // _COUNTED_HEIGHTS)]
-    low, high = np.percentile(few, [_CLIPPED, 100 - _CLIPPED]) * factor
+    few = few[:: max(1, few.size // 10**6)]  # enough for percentiles
+    low, high = np.percentile(few, [0.1, 99.9]) * factor
     extent = (left * MICRO, right * MICRO, bottom * MICRO, top * MICRO)
     style: dict[str, Any] = {"origin": "lower", "interpolation": "nearest", "cmap": "viridis"}
     image = axes.imshow(seen.values * factor, extent=extent, vmin=low, vmax=high, **style)

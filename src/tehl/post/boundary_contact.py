@@ -2,8 +2,8 @@
 
 Which part of the pressure at a node is that of the contact follows from the oil that is trapped
 there, and hardly from anything that one can measure. The load is therefore shared by the film:
-what is carried where the film exceeds the boundary film by at most `MARGIN` counts as carried by
-the contact.
+what is carried where the film exceeds the boundary film by at most `TOUCHING_MARGIN` counts as
+carried by the contact.
 """
 
 import math
@@ -138,7 +138,7 @@ def _error_bar(result: Solution, film: ContactFilm, share: float) -> float:
 
 
 def touching_nodes(result: Solution) -> BoolArray:
-    """Return the nodes whose film exceeds the boundary film by at most `MARGIN`, (ny, nx)."""
+    """Return the nodes at which the surfaces touch, (ny, nx)."""
     film, found = result.problem.contact_film, result.contact
     if film is None or found is None or not found.pressure.any():  # the oil carries all
         return np.zeros(result.scaled.film.shape, bool)

@@ -18,10 +18,6 @@ from tehl.roughness.resolution import Resolution
 
 QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 """Parts of the contact whose films are reported."""
-LEAST_RIPPLE_DEPTH = 0.01
-"""Depth of a ripple that counts, over the mean film of the line [-]."""
-_SMOOTH = 1e-12
-"""Sq of both surfaces up to which they are smooth [m]: the foot of a bump far upstream."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -109,8 +105,8 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
         composite = math.hypot(composite, finer)
     elif finer:
         composite = finer
-    if no_film(result) or not composite > _SMOOTH:
-        return None
+    if no_film(result) or not composite > 1e-12:
+        return None  # smooth, or the foot of a bump far upstream
     film, areas = film_in_contact(result), areas_in_contact(result)
     films = tuple(map(float, weighted_quantiles(film, areas, QUANTILES)))
     (median,) = weighted_quantiles(film, areas, (0.5,))
@@ -295,9 +291,9 @@ def film_histogram(result: Solution, bins: int | Sequence[float] = 60) -> tuple[
 
 
 def _ripples(axis: Array, film: Array) -> Ripples:
-    """Return the valleys of a film along ``axis`` [half-widths]."""
+    """Return the valleys of a film along ``axis`` [half-widths], of 1 % of its mean or deeper."""
     line = film[np.abs(axis) <= 0.8]  # half-widths
-    turns = _turns(line, LEAST_RIPPLE_DEPTH * float(line.mean()))
+    turns = _turns(line, 0.01 * float(line.mean()))
     # Every other turn is a valley; those at the ends lie beside one hill only.
     depths = [
         0.5 * (line[before] + line[after]) - line[here]

@@ -6,7 +6,6 @@ load, with H_0 and c from the film on the edges, and the pressure that of
 `tehl.operators.far_field`, ``P = 2 lambda r g^2 f / H^2``.
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,9 +15,6 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.result.fields import FilmShear
 from tehl.result.solution import Solution
 
-LARGEST_GAP = 0.125
-"""Gap over R_x up to which the oil counts, x = R_x / 2 on the x axis: the gap of a circle is 7 %
-larger than that of a parabola there."""
 RAYS, RINGS = 16, 12
 """Nodes of Gauss over each range of angles in which the integrals are smooth, and over the
 logarithm of the radius: with twice as many they change by 1e-5."""
@@ -66,7 +62,7 @@ def surroundings(
     ):
         return None
     length = scales.half_width_x / scales.film_thickness  # a_x in units of the film: R_x / a_x
-    outer = length * math.sqrt(2.0 * LARGEST_GAP)
+    outer = 0.5 * length  # x = R_x / 2, where the gap of a circle is 7 % above a parabola
     sliding, rolling = _beyond(result, outer)
     unit = scales.viscosity * scales.speed / scales.film_thickness
     unit *= scales.half_width_x * scales.half_width_y

@@ -12,12 +12,6 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.post.boundary_contact import largest_patches, touching, why_unknown
 from tehl.result.transient import TransientSolution
 
-LATE_PART, LATE_GROWTH, FEW_STEPS = 0.1, 0.01, 20
-"""Last part of a run in which an extreme is late, by which part of it it must then have grown, and
-fewest steps that show it."""
-DURATION_FACTOR, EQUAL_DURATIONS = 2.0, 1e-9
-"""Duration to try over that of a run whose extremes are late, and equal durations."""
-
 
 def friction(run: TransientSolution) -> Array | None:
     """Friction of film and solid contact together over the load at that time, positive [-].
@@ -34,14 +28,14 @@ def friction(run: TransientSolution) -> Array | None:
 
 
 def late_extremes(run: TransientSolution) -> tuple[str, ...]:
-    """Extremes that were reached at the end of a run whose duration is not stated.
+    """Extremes that grew by 1 % in the last tenth of a run whose duration is not stated.
 
     They may grow in a longer one: a periodic or mirrored map goes on to pass the contact.
     """
     transient, time = run.start.problem.transient, run.history.time
-    if transient is None or transient.duration is not None or time.size < FEW_STEPS:
+    if transient is None or transient.duration is not None or time.size < 20:
         return ()
-    early = time <= (1.0 - LATE_PART) * time[-1]
+    early = time <= 0.9 * time[-1]
     extremes = (
         ("minimum film", "film_minimum", -run.history.film_minimum),
         ("largest pressure", "pressure_max", run.history.pressure_max),
@@ -50,8 +44,7 @@ def late_extremes(run: TransientSolution) -> tuple[str, ...]:
     return tuple(
         words
         for words, name, values in extremes
-        if values.max() - values[early].max()
-        > max(LATE_GROWTH * abs(values.max()), bars.get(name, 0.0))
+        if values.max() - values[early].max() > max(0.01 * abs(values.max()), bars.get(name, 0.0))
     )
 
 
@@ -64,10 +57,10 @@ def longer_duration(run: TransientSolution) -> float | None:
     transient, end = run.start.problem.transient, float(run.history.time[-1])
     if transient is None or transient.duration is not None or not run.status.converged:
         return None
-    needed = DURATION_FACTOR * end if late_extremes(run) else 0.0
+    needed = 2.0 * end if late_extremes(run) else 0.0
     with suppress(InputError):  # the file of a map that a stored result need not have
         needed = max(needed, whole_passing(ScaledProblem.of(run.start.problem)))
-    return needed if needed > (1.0 + EQUAL_DURATIONS) * end else None
+    return needed if needed > (1.0 + 1e-9) * end else None
 
 
 def patch_cells(run: TransientSolution) -> float:

@@ -31,10 +31,6 @@ TEMPLATE = "ball-on-disc"
 """The template of a list that has none."""
 TITLE = "title"
 """Key of a text, which numbers of rows are too."""
-ROW_SECONDS = 60.0
-"""Time after which no finer grid is started for a contact, if it states none."""
-
-
 _RADII = ("radius", "radius_x", "radius_y")
 
 
@@ -240,8 +236,8 @@ def _listed(
                 break
         return Listed(number, tuple(cells), None, f"row {number}: {text}")
     labels: dict[str, float | str] = {"row": float(number)}
-    if "max_time" not in options.model_fields_set:
-        options = options.model_copy(update={"max_time": ROW_SECONDS})
+    if "max_time" not in options.model_fields_set:  # starts no finer grid after a minute
+        options = options.model_copy(update={"max_time": 60.0})
     case = Case(name=f"row {number}", problem=problem, options=options, labels=labels)
     return Listed(number, tuple(cells), case)
 

@@ -16,8 +16,7 @@ else:
     notebooks = lazy("tehl.report.notebook")
 
 _SHOWN_ROWS = 30
-_LEAST_ROWS = 3
-"""Rows that are shown, and converged cases from which on a curve is drawn."""
+"""Rows that are shown."""
 
 
 class StudyTable(pd.DataFrame):
@@ -49,10 +48,10 @@ class StudyTable(pd.DataFrame):
         return f"{page.to_html(**style)}{rest}{self._curve(labels)}"
 
     def _curve(self, labels: list[str]) -> str:
-        """Return the central film over the first label of numbers, nothing with too few cases."""
+        """Return the central film over the first label of numbers, nothing with two cases."""
         numbers = [label for label in labels if pd.api.types.is_numeric_dtype(self[label])]
         converged = self[self["status"] == "converged"]
-        if not numbers or converged[numbers[0]].nunique() < _LEAST_ROWS:
+        if not numbers or converged[numbers[0]].nunique() < 3:
             return ""
 
         values = converged[numbers[0]]

@@ -12,8 +12,6 @@ from tehl.base.errors import InputError
 LEAST_SHARE = 1.0 / 3.0
 """Part of the load of a tooth where it comes into mesh or leaves it; it is linear up to two thirds
 where it carries alone."""
-JUMP = 0.02
-"""Part of the base pitch over which the load of a tooth grows to the whole."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -126,9 +124,12 @@ class SpurGears:
 
     @property
     def _corners(self) -> list[float]:
-        """Places where the share of the load changes its slope, from the pitch point [m]."""
+        """Places where the share of the load changes its slope, from the pitch point [m].
+
+        It grows to the whole over 2 % of the base pitch.
+        """
         (start, end), pitch = self.ends, self.base_pitch
-        alone, jump = (end - pitch, start + pitch), JUMP * pitch
+        alone, jump = (end - pitch, start + pitch), 0.02 * pitch
         return [start, alone[0] - jump, alone[0], alone[1], alone[1] + jump, end]
 
     def share(self, place: float) -> float:

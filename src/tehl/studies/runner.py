@@ -332,12 +332,6 @@ def _compile_once(cases: Iterable[Case], monitor: StudyMonitor) -> None:
 
 # ---- forecast
 
-_BASE_SECONDS, _START_SECONDS = 0.025, 3.0
-"""Of a case, beside its solve; until workers solve."""
-_ROW_BYTES, _FILE_BYTES = 3_500, 25_000
-"""Of a finished case: its row; its file of fields, beside those by node."""
-_FIELD_BYTES, _LAYER_BYTES = 37, 8
-"""Compressed, per node: pressure, film and shear stresses; each layer of temperature."""
 LEAST_FINISHED = 3
 """Finished cases that show how fast this machine is, and how long the others take."""
 
@@ -377,14 +371,15 @@ def forecast(
     slowness = sum(known.values()) / estimated if len(known) >= LEAST_FINISHED else 1.0
     seconds = [slowness * _seconds(case) for case in waiting]
     workers = max(1, min(jobs, len(waiting)))
-    disk = sum(_ROW_BYTES + (_field_bytes(case) if fields else 0) for case in every.values())
+    row = 3_500  # bytes
+    disk = sum(row + (_field_bytes(case) if fields else 0) for case in every.values())
     needs = sorted((needed_memory(_plan(case), case.problem) for case in waiting), reverse=True)
     longest = max(sum(seconds) / workers, max(seconds, default=0.0))
     return Forecast(
         cases=len(every),
         open=len(waiting),
         cpu_seconds=sum(seconds),
-        wall_seconds=longest + (_START_SECONDS if waiting else 0.0),
+        wall_seconds=longest + (3.0 if waiting else 0.0),  # until workers solve
         disk_bytes=disk,
         memory_bytes=sum(needs[:workers]),
         is_calibrated=len(known) >= LEAST_FINISHED,
@@ -436,7 +431,7 @@ def _plan(case: Case) -> Options:
 
 def _seconds(case: Case) -> float:
     scaled, options = ScaledProblem.of(case.problem), _plan(case)
-    seconds = expected_seconds(scaled, case.options) + _BASE_SECONDS
+    seconds = expected_seconds(scaled, case.options) + 0.025  # beside the solve
     grid, scales = finest_grid(scaled, options), scaled.scales
     mesh = grid.dx * scales.half_width_x, grid.dy * scales.half_width_y
     if in_time := transient_plan(scaled, options, mesh):
@@ -445,6 +440,7 @@ def _seconds(case: Case) -> float:
 
 
 def _field_bytes(case: Case) -> int:
+    """Return the size of a file of fields, compressed: by node, and of what is beside."""
     heat = case.problem.heat
     layers = 0 if heat is None else heat.layers + 2
-    return (_FIELD_BYTES + _LAYER_BYTES * layers) * math.prod(_plan(case).shape) + _FILE_BYTES
+    return (37 + 8 * layers) * math.prod(_plan(case).shape) + 25_000

@@ -39,14 +39,8 @@ Steps = tuple[int, int]
 """Nodes along y and x to the next one that a depth needs."""
 WIDEST_STEP = 4
 """Most nodes to the next, a power of two."""
-DEPTH_OF_STEPS = 4.0
-"""Depth over that distance from which a wave of two such distances has decayed by e^(-4 pi), that
-is 3.5e-6."""
 LINE_CELL_LENGTH = 1e7
 """Length of the cells of a line over all of them along x: plane strain to 5e-8."""
-SPARE = 2
-"""Such distances between the end of the grid and where its period begins: odd kernels jump there,
-and a jump of few waves oscillates."""
 
 
 class Space(Protocol):
@@ -92,7 +86,8 @@ class HalfSpace:
             self.spacing = LINE_CELL_LENGTH * shape[1] * spacing[1], spacing[1]
         self.row, self.mirror = row, mirror
         self._kind: Any = np.float32 if single else np.float64
-        self._half = tuple(2 if n == 1 else fast_size(n + SPARE * WIDEST_STEP) for n in shape)
+        # odd kernels jump where the period begins, and a jump of few waves oscillates
+        self._half = tuple(2 if n == 1 else fast_size(n + 2 * WIDEST_STEP) for n in shape)
 
     def steps(self, depth: float) -> Steps:
         """Return the nodes along y and x to the next one that a depth needs."""
@@ -264,9 +259,12 @@ def fast_size(number: float) -> int:
 
 
 def _step(depth: float) -> int:
-    """Return the nodes to the next that a depth in mesh widths needs."""
+    """Return the nodes to the next that a depth in mesh widths needs.
+
+    A wave of two such distances has decayed by e^(-4 pi), 3.5e-6, at four of them.
+    """
     step = 1
-    while step < WIDEST_STEP and depth >= 2 * step * DEPTH_OF_STEPS:
+    while step < WIDEST_STEP and depth >= 8 * step:
         step *= 2
     return step
 

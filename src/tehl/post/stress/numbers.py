@@ -11,8 +11,6 @@ from tehl.contact.stress import Stress
 from tehl.result.fields import BodyStress
 from tehl.result.solution import Solution
 
-PLACES_PER_INTERVAL = 256
-"""Places between two depths at which a maximum is searched."""
 NEIGHBOUR_DEPTHS = 2
 """Depths on each side of a maximum whose values are interpolated: further away other principal
 stresses may be the largest."""
@@ -44,7 +42,7 @@ def peak(depth: Array, values: Array) -> Peak:
     logarithms = np.log(depth[near])
     curve = Polynomial.fit(logarithms, values[near], logarithms.size - 1)
     first, last = np.log(depth[[index - 1, index + 1]]).tolist()
-    fine = np.linspace(first, last, 2 * PLACES_PER_INTERVAL + 1)
+    fine = np.linspace(first, last, 513)
     found = curve(fine)
     best = int(np.argmax(found))
     return Peak(float(found[best]), float(np.exp(fine[best])), index)

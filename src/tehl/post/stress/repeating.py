@@ -17,10 +17,6 @@ from tehl.base.typing import Array
 from tehl.contact.roller import Ends
 from tehl.post.stress.influence import HalfSpace, Influence, Spectra, Steps
 
-GAP = 16.0
-"""Distance of the next period along x, over that in which the longest wave decays by a factor of e:
-e^-16 of it is then left."""
-
 
 def over_period(field: Array, ends: Ends, *, odd: bool = False) -> Array:
     """Return a field over a period, without the row that is the first one again.
@@ -64,7 +60,8 @@ class RepeatingHalfSpace:
         self.shape, self.ends = shape, ends
         (ny, nx), (dy, dx) = shape, spacing
         period = (ny - 1) * (2 if ends == "mirrored" else 1)
-        beyond = GAP * period * dy / (2.0 * math.pi * dx)
+        # e^-16 of the longest wave is left at the next period along x
+        beyond = 16.0 * period * dy / (2.0 * math.pi * dx)
         self.period = period, int(next_fast_len(math.ceil(nx + beyond), real=True))
         self.beta = 2.0 * np.pi * fftfreq(period, dy)[:, None]
         self.alpha = 2.0 * np.pi * rfftfreq(self.period[1], dx)[None, :]

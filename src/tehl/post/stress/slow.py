@@ -18,14 +18,6 @@ from tehl.base.typing import Array
 from tehl.post.stress.loads import SurfaceLoads
 from tehl.post.stress.thermal import Heated
 
-LARGEST_WAVE = 25.0
-"""Largest wave number of what the motion adds to a body at rest, over the inverse half-width of the
-heat: waves of a quarter of it."""
-PANEL, PANEL_NODES = 8.0, 6
-"""Width of a panel of the quadrature times the length of the grid, and nodes in it."""
-SPOT_HALVINGS, LINE_HALVINGS = 10, 30
-"""Times that the first panel is halved towards zero: 2e-5 of the largest stress; a line of heat
-warms as the root of the wave number, and has 1e-5."""
 _ODD_ALONG_Y = np.array([1.0, 1.0, 1.0, -1.0, -1.0, 1.0])[:, None, None]
 
 
@@ -174,9 +166,11 @@ def _axis(step: float, number: int, part: slice, warm: float) -> _Axis:
     the grid count.
     """
     short = np.pi / step
-    most = short if np.isinf(warm) else min(short, LARGEST_WAVE / (0.5 * warm * step))
-    halvings = LINE_HALVINGS if np.isinf(warm) else SPOT_HALVINGS
-    waves, weights = _quadrature(most, PANEL / (number * step), halvings)
+    # the motion adds waves of a quarter of the half-width of the heat, and longer ones
+    most = short if np.isinf(warm) else min(short, 25.0 / (0.5 * warm * step))
+    # errors of 2e-5 of the largest stress, and of 1e-5: a line warms as the root of the wave number
+    halvings = 30 if np.isinf(warm) else 10
+    waves, weights = _quadrature(most, 8.0 / (number * step), halvings)
     places = step * np.arange(number)
     wanted = places[part]
     # nodes per shortest wave, for cubic splines between them
@@ -199,7 +193,7 @@ def _quadrature(most: float, panel: float, halvings: int) -> tuple[Array, Array]
     """
     ends = np.linspace(0.0, most, int(np.ceil(most / panel)) + 1)
     ends = np.concatenate([[0.0], ends[1] * 0.5 ** np.arange(halvings, 0, -1), ends[1:]])
-    at, weight = leggauss(PANEL_NODES)
+    at, weight = leggauss(6)
     half, middle = 0.5 * np.diff(ends)[:, None], 0.5 * (ends[1:] + ends[:-1])[:, None]
     return (middle + half * at).ravel(), (half * weight).ravel()
 

@@ -11,12 +11,6 @@ from tehl.contact.stress import Stress
 from tehl.post.stress.loads import SurfaceLoads
 from tehl.result.solution import Solution
 
-LEAST_WINDOW = 1.25
-"""Half-widths of the Hertz contact on each side in which stresses are always computed."""
-WAKE = 2.5
-"""Half-widths behind the window in which the wake of heat still pulls at the contact: twice as many
-change stresses by 1 % of the largest thermal one (balls of steel, solid Peclet number 10)."""
-
 
 class Window(NamedTuple):
     """Part of the nodes whose loads and stresses count, of an odd number along x and y."""
@@ -28,7 +22,7 @@ class Window(NamedTuple):
 
 
 def window_of(result: Solution, pressure: Array) -> Window:
-    """Return the nodes around the contact that carry its load.
+    """Return the nodes around the contact that carry its load, 1.25 half-widths at least.
 
     Parameters
     ----------
@@ -40,7 +34,7 @@ def window_of(result: Solution, pressure: Array) -> Window:
     # a window leaves out the edges of the domain, where little presses
     scaled, slices, least = result.scaled, [], 0.01 * float(pressure.max())
     for axis, along in ((scaled.y, 1), (scaled.x, 0)):
-        inside = np.flatnonzero((pressure.max(axis=along) > least) | (np.abs(axis) <= LEAST_WINDOW))
+        inside = np.flatnonzero((pressure.max(axis=along) > least) | (np.abs(axis) <= 1.25))
         first, last = int(inside[0]), int(inside[-1])
         if (last - first) % 2:  # every second node is one of the window
             first, last = (first, last + 1) if last + 1 < axis.size else (first + 1, last)
@@ -123,6 +117,9 @@ def middle_row(result: Solution, window: Window) -> int:
 def wake(result: Solution, settings: Stress, window: Window) -> tuple[int, int]:
     """Return the nodes before and behind a window that carry the wakes of heated bodies, even.
 
+    They pull at the contact over 2.5 half-widths: twice as many change stresses by 1 % of the
+    largest thermal one (balls of steel, solid Peclet number 10).
+
     Parameters
     ----------
     result : Solution
@@ -133,6 +130,6 @@ def wake(result: Solution, settings: Stress, window: Window) -> tuple[int, int]:
         With the mesh widths.
     """
     speeds = [result.problem.motion.speed_of(body) for body in settings.bodies]
-    nodes = 2 * math.ceil(0.5 * WAKE * result.scales.half_width_x / window.spacing[1])
+    nodes = 2 * math.ceil(0.5 * 2.5 * result.scales.half_width_x / window.spacing[1])
     before, behind = any(speed < 0.0 for speed in speeds), any(speed > 0.0 for speed in speeds)
     return nodes * (settings.thermal and before), nodes * (settings.thermal and behind)

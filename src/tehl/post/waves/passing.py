@@ -13,8 +13,6 @@ from tehl.post.waves.response import Ripple, ripple
 from tehl.result.transient import TransientSolution
 from tehl.roughness import WaveVector
 
-MOST_PERIODS = 4
-"""Periods at the end of a run over which a passing wave is fitted."""
 FEWEST_STEPS = 8
 """Time steps per period that a fit needs."""
 _WHOLE_NUMBER_TOLERANCE = 1e-6
@@ -98,7 +96,7 @@ def _wave(run: TransientSolution, surface: int) -> WaveVector:
 
 
 def _periods(run: TransientSolution, surface: int, rate: float, x: float) -> tuple[int, float]:
-    """Return the whole periods to fit, and the time steps in each."""
+    """Return the whole periods to fit, the last four at most, and the time steps in each."""
     if not rate > 0:
         raise InputError(
             f"the wave of surface_{surface} does not pass: its crests lie along x, or it stands"
@@ -116,7 +114,7 @@ def _periods(run: TransientSolution, surface: int, rate: float, x: float) -> tup
             f"the wave of surface_{surface} has been at x = {x:g} m for {max(left, 0.0):.2g} "
             "periods: a fit needs one or more; increase transient.duration"
         )
-    return min(math.floor(left + _WHOLE_NUMBER_TOLERANCE), MOST_PERIODS), steps
+    return min(math.floor(left + _WHOLE_NUMBER_TOLERANCE), 4), steps
 
 
 def _arrival(run: TransientSolution, surface: int, x: float) -> float:

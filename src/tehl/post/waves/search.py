@@ -9,8 +9,6 @@ import numpy as np
 from tehl.base.typing import Array, BoolArray
 from tehl.roughness import WaveVector
 
-SEARCH_HALF_WIDTH = 1.0
-"""Half-widths on each side of the centre in which waves are searched."""
 MOST_WAVES = 3
 """Most waves that are reported."""
 CLEAR = 3.0
@@ -77,7 +75,7 @@ def _within(axis: Array) -> slice:
 
     Every other one would show the shortest waves as longer ones.
     """
-    inside = np.flatnonzero(np.abs(axis) <= SEARCH_HALF_WIDTH)
+    inside = np.flatnonzero(np.abs(axis) <= 1.0)
     left = max(inside.size - 256, 0) // 2
     return slice(int(inside[0]) + left, int(inside[-1]) + 1 - left)
 

@@ -31,16 +31,8 @@ CONFIDENCE = 0.95
 """Probability of the intervals."""
 _NORMAL_DEGREES = 1e6
 """Degrees of freedom from which on t is normal."""
-_SAME_NOISE = 0.02
-"""Relative change at which the noise is known well enough."""
-_LEAST_NOISE = 1e-4
-"""Noise over the largest value of its kind: less is that of the solver."""
-_FIRST_NOISE = 0.03
-"""Noise over the value, or over the largest one, with which the fit begins."""
 _LEAST_DECREASE = 1e-3
 """Relative decrease of the sum of squares, or change of the constants, at which a fit stops."""
-_PROFILE_ACCURACY = 0.1
-"""Relative error of the distance of an end that a linear step may still remove."""
 _LARGEST_END_FACTOR = 3.0
 """Largest growth of the distance of an end in one step."""
 
@@ -93,7 +85,7 @@ def estimate(model: Model, measured: Array, stated: Array) -> Estimate:
         noise = np.where(np.isnan(stated), drawn, stated)
         x = _minimised(model, x, measured, noise)
         before, noises = noises, _noises(model, x, measured, noise, noises)
-        if all(abs(math.log(noises[kind] / before[kind])) < _SAME_NOISE for kind in unknown):
+        if all(abs(math.log(noises[kind] / before[kind])) < 0.02 for kind in unknown):
             break
     values, jacobian = model.values(x), model.jacobian(x) / noise[:, None]
     residual = (values - measured) / noise
@@ -154,7 +146,8 @@ def _check_number(model: Model, kinds: Array, unknown: list[str]) -> None:
 
 
 def _first_noise(kind: str, values: Array) -> float:
-    return _FIRST_NOISE * (1.0 if KINDS[kind].is_relative else float(np.abs(values).max()) or 1.0)
+    """Return the noise with which the fit begins: 3 % of the value, or of the largest one."""
+    return 0.03 * (1.0 if KINDS[kind].is_relative else float(np.abs(values).max()) or 1.0)
 
 
 def _minimised(model: Model, start: Array, measured: Array, noise: Array) -> Array:
@@ -202,7 +195,7 @@ def _noises(
         left = max(float(freedom[chosen].sum()), 0.5)
         noisy = before * math.sqrt(float(residual[chosen] @ residual[chosen]) / left)
         largest = 1.0 if KINDS[kind].is_relative else float(np.abs(measured[chosen]).max())
-        found[kind] = max(noisy, _LEAST_NOISE * largest)
+        found[kind] = max(noisy, 1e-4 * largest)  # less is that of the solver
     return found
 
 
@@ -226,7 +219,7 @@ def _end(model: Model, measured: Array, found: Estimate, k: int, quantile: float
             break
         ratio = math.sqrt(target / grown) if grown > 0 else _LARGEST_END_FACTOR
         step *= min(ratio, _LARGEST_END_FACTOR)
-        if abs(ratio - 1.0) < _PROFILE_ACCURACY:
+        if abs(ratio - 1.0) < 0.1:  # this step has removed the rest
             return float(found.x[k] + step)
     return float(found.x[k] + step) if grown > target else math.copysign(math.inf, quantile)
 

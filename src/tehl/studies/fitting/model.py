@@ -23,10 +23,6 @@ FIT_ERROR = 0.03
 """Error of the films if the case does not state it: bars are then about 1 %."""
 _DIFFERENCE = 0.02
 """Change of the logarithm of a constant for its derivatives, which are within 1 %."""
-_SAME_DERIVATIVES = 0.03
-"""Change of the logarithms within which derivatives change by a few per cent and are kept."""
-_LOADED = 0.5
-"""Part of the largest pressure above which the stress is compared with that of the law."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +68,7 @@ def _reached(result: Result) -> float:
     shear, law = result.shear, result.problem.lubricant.shear
     if shear is None or law.is_newtonian:
         return 0.0
-    loaded = result.pressure > _LOADED * result.pressure.max()
+    loaded = result.pressure > 0.5 * result.pressure.max()
     stress = np.abs(shear.mid_film[loaded]) / law.stress_scale(result.pressure[loaded])
     return float(stress.max())
 
@@ -117,7 +113,7 @@ class Model:
     def jacobian(self, x: Array) -> Array:
         """Return the derivatives of the values by ``x``, by differences here or close to it."""
         for place, known in self._jacobians:
-            if np.abs(place - x).max() < _SAME_DERIVATIVES:
+            if np.abs(place - x).max() < 0.03:  # they change by a few per cent
                 return known
         steps = _DIFFERENCE * np.eye(x.size)
         base, *moved = (self._vector(one) for one in self.answers(x, *(x + step for step in steps)))

@@ -15,20 +15,6 @@ from tehl.studies.fitting.estimate import Estimate
 if TYPE_CHECKING:
     import pandas as pd
 
-_WIDE_INTERVAL = 4.0
-"""Upper over lower end from which on a constant is not determined."""
-_LARGEST_CORRELATION = 0.99
-"""Correlation beyond which only a combination of two constants is determined."""
-_NEARLY_LIMITED = 0.8
-"""Largest stress over the limiting one, below which the limit is not seen."""
-_OUTLIER = 3.5
-"""Residual over the noise of a point that is named."""
-_LEAST_DURBIN_WATSON, _FEWEST_IN_ORDER = 1.0, 6
-"""Mean square of the steps between residuals over that of the residuals, 2 for random ones, below
-which they follow a curve; values from which on it is judged."""
-_LARGEST_SCATTER = 4.0
-"""Mean square of the residuals over the stated noise that the model may have."""
-
 
 def remarks(
     constants: Sequence[Fitted],
@@ -53,7 +39,7 @@ def remarks(
         Largest shear stress over that of the shear law [-].
     """
     for one in constants:
-        if one.high >= _WIDE_INTERVAL * one.low:
+        if one.high >= 4.0 * one.low:
             why = _why_open(one.constant.name, reached)
             yield f"the data do not determine {one.constant.name}: {one.interval}{why}"
         elif one.grid_error > 0.5 * math.log(one.high / one.low):
@@ -62,13 +48,13 @@ def remarks(
                 "smaller numerics.error"
             )
     for (i, first), (k, second) in combinations(enumerate(constants), 2):
-        if abs(correlation[i, k]) > _LARGEST_CORRELATION:
+        if abs(correlation[i, k]) > 0.99:
             yield (
                 f"{first.constant.name} and {second.constant.name} are correlated by "
                 f"{correlation[i, k]:.4f}: the data determine a combination of both only; fit one "
                 "of them, or add points at another condition"
             )
-    if set(table["kind"]) - set(found.noises) and found.scatter > _LARGEST_SCATTER:
+    if set(table["kind"]) - set(found.noises) and found.scatter > 4.0:
         yield (
             f"the points scatter {math.sqrt(found.scatter):.1f} times as far as the stated noise: "
             "case or law miss something; the intervals are widened by that factor"
@@ -78,7 +64,7 @@ def remarks(
 
 def _why_open(name: str, reached: float) -> str:
     """Return why a constant of a shear law stays open; empty if the stress is not the reason."""
-    if name.startswith("limiting") and reached < _NEARLY_LIMITED:
+    if name.startswith("limiting") and reached < 0.8:
         return f"; the largest stress is {percentage(reached)} of the limit, which is not reached"
     if name.startswith(("eyring", "carreau")) and reached < 1.0:
         return f"; the largest stress is {percentage(reached)} of it, so that the oil hardly thins"
@@ -90,12 +76,12 @@ def _of_residuals(table: "pd.DataFrame") -> Iterator[str]:
     for kind, rows in table.groupby("kind", sort=False):
         residual = rows["residual"].to_numpy()
         steps = float(np.sum(np.diff(residual) ** 2) / max(float(residual @ residual), 1e-30))
-        if residual.size >= _FEWEST_IN_ORDER and steps < _LEAST_DURBIN_WATSON:
+        if residual.size >= 6 and steps < 1.0:
             yield (
                 f"the residuals of {kind} follow a curve (Durbin-Watson {steps:.2f}, random ones "
                 "have 2): case or law miss something, and the intervals are too narrow"
             )
-    far = table[table["residual"].abs() > _OUTLIER]
+    far = table[table["residual"].abs() > 3.5]
     for _, row in far.head(5).iterrows():
         yield (
             f"{row['point']}: {row['kind']} is {abs(row['residual']):.1f} times the noise off the "

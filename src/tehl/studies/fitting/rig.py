@@ -27,8 +27,6 @@ _CURVES = ("FILM", "TRACTION", "STRIBECK")
 _PROBES: dict[Probe, re.Pattern[str]] = {
     probe: re.compile(rf"{probe}\b.*\btemp\b.*", re.IGNORECASE) for probe in ("lube", "pot")
 }
-_LARGEST_DIFFERENCE = 20.0
-"""Temperatures of both probes [K] beyond which one of them is not in the oil."""
 
 Row = tuple[int, dict[str, str]]
 """Number of a line, and its cells by heading."""
@@ -104,7 +102,7 @@ def _cells(found: dict[str, str], number: int, path: Path, probe: Probe | None) 
         for name, pattern in _PROBES.items()
     }
     lube, pot = degrees["lube"], degrees["pot"]
-    if probe is None and lube and pot and abs(float(lube) - float(pot)) > _LARGEST_DIFFERENCE:
+    if probe is None and lube and pot and abs(float(lube) - float(pot)) > 20.0:  # one in air
         raise InputError(
             f"{shortened(path)}: line {number}: the probe of the lubricant has {lube} °C and that "
             f"of the pot {pot} °C: state which is that of the oil, lube or pot (--probe pot)"
