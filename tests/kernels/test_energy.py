@@ -6,7 +6,7 @@ from numba import njit
 
 from tehl.base.typing import Array
 from tehl.estimate.scaling import Scales
-from tehl.kernels.energy import column, flow, laws, records
+from tehl.kernels.energy import laws, records
 from tehl.kernels.raw import lanes, raw
 from tehl.lubricant import (
     ConstantDensity,
@@ -19,8 +19,9 @@ from tehl.lubricant import (
 from tehl.operators.across import SCHEMES
 from tehl.operators.law_table import law_table
 from tests.kernels import station as twin
-from tests.kernels.from_python import from_python
+from tests.kernels.interpreted import interpreted
 
+column, flow, python_laws = (interpreted(f"energy.{name}") for name in ("column", "flow", "laws"))
 ROWS = 2 * records.BLOCK
 UNITS = Scales(
     half_width_x=1e-4,
@@ -90,24 +91,18 @@ def write_exponentials(x: Array, out: Array) -> None:
         out[lanes(at)] = laws.exponential(x[lanes(at)])
 
 
-@njit
 def flow_of_blocks(model: records.Model, work: records.Work, steps: int) -> None:
-    model, work = raw((model, work))
     for block in range(work.lines.shape[0]):
         flow.flow(model, work.lines[block], work.layers[block], steps)
 
 
-@njit
 def write_mobility(across: records.Across, work: records.Work, out: Array) -> None:
-    across, work, out = raw((across, work, out))
     for block in range(work.lines.shape[0]):
         flow.moments(across, work.layers[block])
         out[lanes(records.BLOCK * block)] = flow.mobility(across, work.layers[block])
 
 
-@njit
 def cross_flows(model: records.Model, work: records.Work, i: int) -> None:
-    model, work = raw((model, work))
     for block in range(work.lines.shape[0]):
         flow.mass_fluxes(model.across, work, records.Place(i, block))
     flow.complete_mass(model.terms, work, i)
@@ -115,11 +110,9 @@ def cross_flows(model: records.Model, work: records.Work, i: int) -> None:
         flow.cross_flow(model, work, records.Place(i, block))
 
 
-@njit
 def evaluate(model: records.Model, work: records.Work) -> None:
-    model, work = raw((model, work))
     for block in range(work.lines.shape[0]):
-        laws.evaluate_laws(model, work.terms, work.lines[block], work.layers[block])
+        python_laws.evaluate_laws(model, work.terms, work.lines[block], work.layers[block])
 
 
 def test_exponential_is_that_of_numpy() -> None:
@@ -138,7 +131,7 @@ def test_elimination_solves_the_columns(nodes: int, band: int) -> None:
     columns[apart == 0] += 2.0 * nodes
     rhs = random.uniform(-1.0, 1.0, (nodes, records.BLOCK))
     exact = np.linalg.solve(columns.transpose(2, 0, 1), rhs.T[:, :, None])[:, :, 0].T
-    from_python(column.solve_columns)(columns, rhs, band)
+    column.solve_columns(columns, rhs, band)
     np.testing.assert_allclose(rhs, exact, rtol=1e-13, atol=1e-15)
 
 

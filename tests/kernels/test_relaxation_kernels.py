@@ -7,24 +7,11 @@ from tehl.kernels import properties, relaxation, reynolds
 from tehl.kernels.faces import CLOSED, Stencil
 from tehl.kernels.lanes import LANES
 from tehl.kernels.relaxation import LineRelaxation
-from tests.kernels.from_python import from_python
+from tests.kernels.interpreted import interpreted
 from tests.kernels.reynolds_twin import isotropic, operator_twin, random_film, stencil_of
 
 MIRROR = pytest.mark.parametrize("mirror", [0, 1])
-mark_dipoles, set_up, band_solve, complementarity, relax_batch, add_dipoles, wet_range = map(
-    from_python,
-    (
-        relaxation.mark_dipoles,
-        relaxation.set_up,
-        relaxation.band_solve,
-        relaxation.complementarity,
-        relaxation.relax_batch,
-        relaxation.add_dipoles,
-        relaxation.wet_range,
-    ),
-)
-
-
+python = interpreted("relaxation")
 REACH = np.arange(8)
 
 
@@ -113,7 +100,7 @@ def test_nodes_of_small_conductance_far_from_cavities_relax_as_dipoles():
     film.eps[:, 6] = 1.0
     film.p[1, 1] = 0.0
     setting = relaxation_of(shape, xi=1.0)
-    mark_dipoles(film, stencil, setting)
+    python.mark_dipoles(film, stencil, setting)
     expected = np.zeros(shape, np.uint8)
     expected[1:-1, 1:5] = 1
     expected[1, 1] = expected[1, 2] = expected[2, 1] = 0
@@ -127,13 +114,13 @@ def test_lines_that_are_far_apart_leave_each_other_their_kind_and_their_cavities
     film.eps[3] = 1e4  # conducts well, but little flows to the lines beside
     film.p[3, 3:] = 0.0
     setting = relaxation_of(shape, xi=1.0, parts=(0.49, 0.01))._replace(apart=1)
-    mark_dipoles(film, stencil, setting)
+    python.mark_dipoles(film, stencil, setting)
     expected = np.zeros(shape, np.uint8)
     expected[:, 1:-1] = 1
     expected[3] = 0
     np.testing.assert_array_equal(setting.kind, expected)
     setting.delta[2, 5] = -1.0
-    add_dipoles(film, setting, stencil.mirror)
+    python.add_dipoles(film, setting, stencil.mirror)
     assert film.p[3, 5] == 0.0  # a cavity is not filled from the line beside
 
 
@@ -149,7 +136,7 @@ def test_the_band_is_the_derivative_of_the_operator(dipole, parts, mirror):
     film, stencil = random_film(shape, 4), stencil_of(mirror)
     setting = relaxation_of(shape, influence=0.4, parts=parts)
     setting.kind[j, 1:-1] = dipole
-    set_up(film, stencil, setting, (j, 1), (1, nx - 2))
+    python.set_up(film, stencil, setting, (j, 1), (1, nx - 2))
     band = dense_band(setting.systems.nodes, 0)
     shapes = (setting.shapes.dipole if dipole else setting.shapes.point)[j % 2, :, j // 2]
     for k in range(1, nx - 1):
@@ -180,7 +167,7 @@ def test_the_band_is_the_derivative_of_the_operator(dipole, parts, mirror):
 def test_band_solve_equals_a_dense_solve_in_every_lane():
     nx = 14
     nodes = random_band(nx)
-    band_solve(nodes, 1, nx - 2)
+    python.band_solve(nodes, 1, nx - 2)
     for lane in range(LANES):
         expected = np.linalg.solve(dense_band(nodes, lane), values(nodes, "rest")[1:-1, lane])
         np.testing.assert_allclose(values(nodes, "u")[1:-1, lane], expected, rtol=1e-11, atol=1e-13)
@@ -191,7 +178,7 @@ def test_cavitated_and_kept_nodes_enter_the_solve_with_known_changes():
     nodes = random_band(nx, seed=3)
     state = values(nodes, "state")
     state[4, 0], state[7, 0] = 1.0, 2.0
-    band_solve(nodes, 1, nx - 2)
+    python.band_solve(nodes, 1, nx - 2)
     u, p = (values(nodes, name)[:, 0] for name in ("u", "p"))
     assert u[4] == -p[4]
     assert u[7] == 0.0
@@ -205,7 +192,7 @@ def test_policy_iteration_ends_with_complementary_pressure_and_residual(seed):
     nodes = random_band(nx, seed)
     p, rest = (values(nodes, name) for name in ("p", "rest"))
     values(nodes, "state")[:] = (p <= 0.0) & (rest >= 0.0)
-    assert complementarity(nodes, (1, nx - 2), nx - 2) == (1, nx - 2)
+    assert python.complementarity(nodes, (1, nx - 2), nx - 2) == (1, nx - 2)
     for lane in range(LANES):
         u = values(nodes, "u")[1:-1, lane]
         new = p[1:-1, lane] + u
@@ -233,8 +220,8 @@ def test_lines_relaxed_side_by_side_equal_lines_relaxed_one_by_one(shape, mirror
     first = 0 if mirror else 1
     for colour in range(2):
         for j in range(first + colour, shape[0] - 1, 2):
-            relax_batch(one, stencil, rhs, setting, (j, 1))
-    add_dipoles(one, setting, mirror)
+            python.relax_batch(one, stencil, rhs, setting, (j, 1))
+    python.add_dipoles(one, setting, mirror)
     np.testing.assert_allclose(film.p, one.p, rtol=1e-10, atol=1e-12)
 
 
@@ -281,7 +268,7 @@ def test_a_broken_pressure_is_relaxed_as_a_wet_one():
     film, setting = random_film((5, 12)), relaxation_of((5, 12))
     film.p[2] = 0.0
     film.p[2, 5] = np.nan
-    assert wet_range(film, setting, 2, 0) == (5, 5)
+    assert python.wet_range(film, setting, 2, 0) == (5, 5)
 
 
 def test_frozen_nodes_keep_their_pressure():

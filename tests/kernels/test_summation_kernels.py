@@ -9,7 +9,7 @@ import pytest
 from tehl.kernels import summation
 from tehl.kernels.summation import Box
 from tehl.operators.multilevel import Stage
-from tests.kernels.from_python import from_python
+from tests.kernels.interpreted import interpreted
 
 WEIGHTS = np.array([3.0, -25.0, 150.0, 150.0, -25.0, 3.0]) / 256.0
 OFFSETS = np.array([-5, -3, -1, 1, 3, 5])
@@ -131,7 +131,7 @@ def test_gathering_keeps_the_total_of_the_sources():
 
 
 def test_weighted_sums_of_rows_take_every_step_th_row():
-    rng, weigh = np.random.default_rng(4), from_python(summation.weigh)
+    rng, weigh = np.random.default_rng(4), interpreted("summation").weigh
     rows, table = rng.random((10, 6)), rng.random((9, 3))
     for first, step in ((0, 1), (1, 2)):
         weigh(rows, table, 1, (first, step))

@@ -8,7 +8,7 @@ import pytest
 from tehl.base.typing import Array
 from tehl.contact.options import ROLLER_ENDS, Domain
 from tehl.estimate.grid import Grid
-from tehl.kernels import cavities, faces, properties, reynolds
+from tehl.kernels import cavities, properties, reynolds
 from tehl.kernels.faces import CLOSED, Stencil
 from tehl.operators.influence import influence_of, matrix_of
 from tehl.operators.reynolds import (
@@ -19,19 +19,10 @@ from tehl.operators.reynolds import (
     steady_stencil,
     steady_wedge,
 )
-from tests.kernels.from_python import from_python
+from tests.kernels.interpreted import interpreted
 from tests.operators.contacts import contact_groups, grid_of
 
-both, both_x, opening_power, row_below, row_above = map(
-    from_python,
-    (
-        faces.both,
-        faces.both_x,
-        faces.opening_power,
-        reynolds.row_below,
-        reynolds.row_above,
-    ),
-)
+python, faces = interpreted("reynolds"), interpreted("faces")
 BOX = Domain(x=(-2.0, 2.0), y=(-1.5, 1.5))
 
 
@@ -121,7 +112,7 @@ def test_a_wedge_of_third_order_is_one_upstream_of_the_centre():
 @pytest.mark.parametrize("factor", [1.0, 1.5, 4.0, 10.0])
 def test_the_conductance_of_a_face_is_a_geometric_or_a_logarithmic_mean(factor):
     stencil = steady_stencil(grid_of(33, 33, mirror=True, domain=BOX), contact_groups(), 3)
-    falling, rising = (0.5 * both_x(stencil, *pair) for pair in ((factor, 1), (1, factor)))
+    falling, rising = (0.5 * faces.both_x(stencil, *pair) for pair in ((factor, 1), (1, factor)))
     assert falling == pytest.approx(factor**0.5)
     exact = (factor - 1.0) / np.log(factor) if factor > 1.0 else 1.0
     assert rising == pytest.approx(exact, rel=0.02)
@@ -136,7 +127,7 @@ def closed_stencil(wedge: int) -> Stencil:
 def between_lines(stencil: Stencil, here: tuple[float, float], there: tuple[float, float]) -> float:
     """Return the conductance between two lines, each with its mobility and film."""
     eps = [mobility * film**3 for mobility, film in (here, there)]
-    return 0.5 * both(stencil, *eps, opening_power(stencil, here[1], there[1]))
+    return 0.5 * faces.both(stencil, *eps, faces.opening_power(stencil, here[1], there[1]))
 
 
 @pytest.mark.parametrize("wedge", [1, 2, 3])
@@ -215,12 +206,12 @@ def test_dipoles_on_lines_that_crowd_have_no_load_and_bend_their_line_as_stated(
     rows = grid.shape[0]
     for j in range(rows):
         change = np.zeros(grid.shape)
-        neighbours = row_below(j, rows, CLOSED), row_above(j, rows, CLOSED)
+        neighbours = python.row_below(j, rows, CLOSED), python.row_above(j, rows, CLOSED)
         along, aside, *_ = shapes.parts[j]
         change[j, i], change[j, [i - 1, i + 1]] = 1.0, -along
         for row in set(neighbours):
             # as a sweep adds them: from the north to the line south and from the south
-            south, north = row_below(row, rows, CLOSED), row_above(row, rows, CLOSED)
+            south, north = python.row_below(row, rows, CLOSED), python.row_above(row, rows, CLOSED)
             for side, beside in ((2, south), (3, north)):
                 change[row, i] -= shapes.parts[row, side] if beside == j else 0.0
         loads = change.sum(axis=1) * grid.widths

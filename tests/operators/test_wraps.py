@@ -8,19 +8,19 @@ from tehl.contact.options import Domain
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
-from tehl.kernels import reynolds, transfer
+from tehl.kernels import transfer
 from tehl.kernels.faces import CLOSED, WRAPPED
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import HeatedFilm
 from tehl.operators.heights import full_weighting
 from tehl.operators.jacobian import interpolation, neighbour
 from tehl.operators.transfer import refine_signed
-from tests.kernels.from_python import from_python
+from tests.kernels.interpreted import interpreted
 
 ENDS = Domain.model_construct(x=(-3.0, 1.5), y=(-1.0, 1.0))
 GRID = Grid(nx=65, ny=17, domain=ENDS, mirror=False, wraps=True)
 EDGES = CLOSED + WRAPPED
-row_below, row_above = map(from_python, (reynolds.row_below, reynolds.row_above))
+python = interpreted("reynolds")
 
 
 def moved(field: Array, rows: int) -> Array:
@@ -39,11 +39,11 @@ def ripples(grid: Grid = GRID, seed: int = 1) -> Array:
 def test_neighbours_beyond_the_ends_are_those_of_the_other_end():
     inner, numbers = np.ones(GRID.shape, bool), np.arange(17.0)
     field = np.tile(numbers[:, None], (1, GRID.nx)).ravel()
-    for way, row in ((-1, row_below), (1, row_above)):
+    for way, row in ((-1, python.row_below), (1, python.row_above)):
         there = (neighbour(GRID, inner, way, 0, closed=True) @ field).reshape(GRID.shape)[:, 3]
         assert there.tolist() == [row(j, 17, EDGES) for j in range(17)]
-    assert [row_below(0, 17, EDGES), row_above(16, 17, EDGES)] == [15, 1]
-    assert [row_below(0, 17, CLOSED), row_above(16, 17, CLOSED)] == [1, 15]
+    assert [python.row_below(0, 17, EDGES), python.row_above(16, 17, EDGES)] == [15, 1]
+    assert [python.row_below(0, 17, CLOSED), python.row_above(16, 17, CLOSED)] == [1, 15]
 
 
 @pytest.mark.parametrize("way", ["restrict_residual", "restrict_pressure", "weigh", "refine"])
