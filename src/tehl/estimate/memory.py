@@ -25,9 +25,6 @@ USABLE_MEMORY_PART, USUAL_MEMORY = 0.5, 1.2e9
 BYTES_CROWDED = 1000
 """Added per stored node where lines crowd at ends: 230 to 510 by near lines of the finest grid, of
 1025 x 513 nodes, and as much by the coarser ones."""
-USUAL_LAYERS = 9
-NEGLIGIBLE_MEMORY = 16e6
-"""Need that any machine running Python can satisfy [byte]: available memory is not checked."""
 
 _LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
 """Memory limit of a container. Its usage is not read: it counts caches that can be dropped."""
@@ -55,7 +52,7 @@ def _bytes_per_node(problem: ContactProblem | None) -> float:
     if problem is None or not problem.is_coupled:
         return BYTES_PER_NODE
     heat = problem.heat
-    heated, layers = (0, USUAL_LAYERS) if heat is None else (BYTES_HEATED, heat.layers)
+    heated, layers = (0, 9) if heat is None else (BYTES_HEATED, heat.layers)
     return BYTES_PER_NODE + BYTES_COUPLED + heated + BYTES_PER_LAYER * layers
 
 
@@ -88,7 +85,8 @@ def check_memory(options: Options, problem: ContactProblem | None = None) -> Non
         If the need exceeds the available memory; the message names a grid that fits.
     """
     needed = needed_memory(options, problem)
-    available = available_memory() if needed > NEGLIGIBLE_MEMORY else None
+    # any machine that runs Python has 16 MB
+    available = available_memory() if needed > 16e6 else None
     if available is None or needed <= available:
         return
     largest = int((available / _bytes_per_node(problem)) ** 0.5)

@@ -51,7 +51,7 @@ class NumbersRow(Row):
     words: str = ""
 
 
-def point_of(case: Case, result: Result) -> NumbersRow:
+def _point_of(case: Case, result: Result) -> NumbersRow:
     """Return the numbers of a result, none if it did not converge."""
     status = result.status
     found = explain(case.problem, case.options)
@@ -103,7 +103,7 @@ class Sweeps(Queue):
         try:
             pool = self._ready_pool()
             if not request.is_cancelled:
-                run(cases, self._memory, engine=pool, make=point_of, monitor=monitor)
+                run(cases, self._memory, engine=pool, make=_point_of, monitor=monitor)
         except Stopped:
             pass
         except Exception:

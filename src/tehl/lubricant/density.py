@@ -68,15 +68,7 @@ class ConstantDensity(DensityModel):
     """Density [kg/m^3]."""
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return rho_0 [kg/m^3] in the shape of ``pressure`` and ``temperature``.
-
-        Parameters
-        ----------
-        pressure : float or Array
-            Of any value; decides the shape only.
-        temperature : float or Array
-            Of any value; decides the shape only.
-        """
+        """Return rho_0 [kg/m^3] in the shape of ``pressure`` and ``temperature``."""
         return self.rho_0 + 0.0 * (pressure + temperature)
 
 

@@ -13,8 +13,6 @@ LARGEST_LAW_EXPONENT = 600.0
 """``exp`` of more would overflow; so thick a film is a solid for every purpose."""
 FORTY_DEGREES = 313.15
 """Temperature at which oils are stated, compared and tried if they state no other [K]."""
-SLOPE_PRESSURE, SLOPE_KELVIN = 1e4, 1e-2
-"""Steps of the differences [Pa], [K] of laws without coefficients of their own."""
 
 Values = TypeVar("Values", float, Array)
 
@@ -65,7 +63,7 @@ class ViscosityModel(Law):
 
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return ``d ln eta / dp`` [1/Pa] at ambient pressure and ``temperature`` [K]."""
-        d = SLOPE_PRESSURE
+        d = 1e4  # [Pa]
         first, second, third = (
             math.log(self.viscosity(pressure, temperature)) for pressure in (0.0, d, 2.0 * d)
         )
@@ -73,7 +71,7 @@ class ViscosityModel(Law):
 
     def temperature_coefficient_at(self, temperature: float) -> float:
         """Return ``-d ln eta / dT`` [1/K] at ambient pressure and ``temperature`` [K]."""
-        d = SLOPE_KELVIN
+        d = 1e-2  # [K]
         colder, warmer = (math.log(self.viscosity(0.0, temperature + step)) for step in (-d, d))
         return (colder - warmer) / (2.0 * d)
 
@@ -104,15 +102,7 @@ class ExponentialFall(ViscosityModel):
         return self.gamma or 0.0
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
-
-        Parameters
-        ----------
-        pressure : float or Array
-            Gauge pressure [Pa].
-        temperature : float or Array
-            Absolute [K]; without ``gamma`` it has no effect.
-        """
+        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
         growth = self._growth(pressure)
         if self.gamma:
             growth = growth - self.gamma * (temperature - self.reference_temperature)

@@ -19,8 +19,6 @@ from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
 ROELANDS_OFFSET = 9.67  # -ln of 6.31e-5 Pa s, the viscosity at Roelands' common point
 ROELANDS_PRESSURE = 1.96e8  # [Pa], in the definition of z
 PER_ROELANDS_PRESSURE = 5.1e-9  # [1/Pa], in the bracket: the rounded 1/1.96e8
-LEAST_THETA = 0.01
-"""Least ``(T - 138)/(T_0 - 138)``: Roelands' law ends at 138 K."""
 _ROELANDS_TEMPERATURE = 138.0  # [K]
 
 
@@ -139,21 +137,13 @@ class Roelands(_RoelandsPressure):
 
     def _theta(self, temperature: Any) -> Any:
         above = self.reference_temperature - _ROELANDS_TEMPERATURE
-        return limited((temperature - _ROELANDS_TEMPERATURE) / above, LEAST_THETA)
+        return limited((temperature - _ROELANDS_TEMPERATURE) / above, 0.01)  # it ends at 138 K
 
     def _thinner(self, temperature: Any) -> Any:
         return self._theta(temperature) ** -self.temperature_index
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the viscosity [Pa s] at ``pressure`` and ``temperature``.
-
-        Parameters
-        ----------
-        pressure : float or Array
-            Gauge pressure [Pa], above -1.9e8 Pa.
-        temperature : float or Array
-            Absolute [K]; a number, or of the shape of ``pressure``.
-        """
+        """Return the viscosity [Pa s] at ``pressure`` above -1.9e8 Pa and ``temperature`` [K]."""
         growth = pressure * PER_ROELANDS_PRESSURE
         growth += 1.0  # in place from here on: this is evaluated in each cycle
         growth **= self.pressure_index

@@ -241,15 +241,7 @@ class Limiting(ShearModel):
         return curve + _KNEE_SLOPE * np.maximum(stress - _KNEE, 0.0)
 
     def thinned(self, newtonian: float, pressure: float) -> float:
-        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa], below the limit.
-
-        Parameters
-        ----------
-        newtonian : float
-            Viscosity times shear rate [Pa], not negative.
-        pressure : float
-            Decides the limiting stress [Pa].
-        """
+        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa], below the limit."""
         limit = self.stress_scale(pressure)
         return -limit * math.expm1(-newtonian / limit)
 

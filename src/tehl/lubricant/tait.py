@@ -37,10 +37,6 @@ from tehl.lubricant.law import (
 
 LEAST_VOLUME = 0.2
 """Least part of a volume that the equations of this module compress or cool to."""
-LEAST_MODULUS = 0.02
-"""Least part of the bulk modulus that heat leaves: the exponential is one of moderate heat."""
-LEAST_FREE = 1e-4
-"""Least free volume, in units of the reference volume: the oil is a glass long before."""
 
 Slope = Annotated[float, Field(gt=0.0, le=100.0, allow_inf_nan=False, examples=[11.0])]
 
@@ -63,15 +59,7 @@ class TaitDensity(DensityModel):
     """T_0 [K]."""
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K].
-
-        Parameters
-        ----------
-        pressure : float or Array
-            Gauge pressure [Pa].
-        temperature : float or Array
-            Absolute [K]; decides the bulk modulus and the volume at ambient pressure.
-        """
+        """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K]."""
         return self.rho_0 / _relative_volume(self, pressure, temperature)
 
 
@@ -121,18 +109,10 @@ class TaitDoolittle(ViscosityModel):
 
     def _free(self, pressure: Any, temperature: Any) -> Any:
         volume = _relative_volume(self, pressure, temperature)
-        return limited(volume - self._core(temperature), LEAST_FREE)
+        return limited(volume - self._core(temperature), 1e-4)  # it is a glass long before
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
-
-        Parameters
-        ----------
-        pressure : float or Array
-            Gauge pressure [Pa].
-        temperature : float or Array
-            Absolute [K]; decides the occupied and the free volume.
-        """
+        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
         ratio = self._core(temperature) / self._free(pressure, temperature)
         return exponential(self.eta_0, self.B * (ratio - self.occupied / (1.0 - self.occupied)))
 
@@ -151,6 +131,6 @@ def _volume(law: TaitDensity | TaitDoolittle, temperature: Any) -> Any:
 
 
 def _modulus(law: TaitDensity | TaitDoolittle, temperature: Any) -> Any:
-    """Return K_0 [Pa]."""
+    """Return K_0 [Pa]; at most 98 % are lost, as the exponential is one of moderate heat."""
     softer = -law.softening * (temperature - law.reference_temperature)
-    return limited(exponential(law.bulk_modulus, softer), LEAST_MODULUS * law.bulk_modulus)
+    return limited(exponential(law.bulk_modulus, softer), 0.02 * law.bulk_modulus)

@@ -66,15 +66,7 @@ class ConstantViscosity(ViscosityModel):
         return 0.0
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return eta_0 [Pa s] in the shape of ``pressure`` and ``temperature``.
-
-        Parameters
-        ----------
-        pressure : float or Array
-            Of any value; decides the shape only.
-        temperature : float or Array
-            Of any value; decides the shape only.
-        """
+        """Return eta_0 [Pa s] in the shape of ``pressure`` and ``temperature``."""
         return self.eta_0 + 0.0 * (pressure + temperature)
 
 

@@ -145,15 +145,7 @@ class Walther(ViscosityModel):
         return functions(ambient).log(ambient) + ROELANDS_OFFSET
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
-        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
-
-        Parameters
-        ----------
-        pressure : float or Array
-            Gauge pressure [Pa], above -1.9e8 Pa.
-        temperature : float or Array
-            Absolute [K]; decides the viscosity at ambient pressure by Walther's line.
-        """
+        """Return the viscosity [Pa s] at ``pressure`` above -1.9e8 Pa and ``temperature`` [K]."""
         growth = (1.0 + PER_ROELANDS_PRESSURE * pressure) ** self.pressure_index - 1.0
         span = limited(self._span(temperature), 0.0)
         return exponential(self._ambient(temperature), span * growth)

@@ -12,8 +12,6 @@ from tehl.estimate.ways import Way
 
 INNER = [5, 6, 9, 10]
 """Places, in a cubic of 4 x 4 nodes, of those around."""
-SAME_WAY = 1e-9
-"""Difference of two ways, in mesh widths, below which they carry a field alike."""
 
 
 class Carrier:
@@ -53,7 +51,7 @@ class Carrier:
 
     def matrix(self, way: Way) -> csr_array:
         """Return the interpolation of a field before a motion, (ny nx, ny nx)."""
-        same = SAME_WAY * (self.x[1] - self.x[0])
+        same = 1e-9 * (self.x[1] - self.x[0])
         if self._last is None or max(abs(np.subtract(way, self._last[0]))) > same:
             self._last = way, self._matrix(way)
         return self._last[1]

@@ -25,8 +25,6 @@ DECAY = 40.0
 by 4e-13, by 5e-12 with 30, which takes a tenth less memory; with samples by up to 7e-12."""
 LINES, WAVES, GROWTH = 16, 8, 1.25
 """Lines of a block; its least wave numbers, and those of a block over those of the one before."""
-LEAST_SAMPLES = 32
-"""Least intervals of the samples along x: what is left of the kink decays as k^-8."""
 AT_ONCE = 4
 """Lines whose influences are computed together: with more they take more memory than is kept."""
 POWERS = np.array([2, 4, 6])
@@ -127,7 +125,7 @@ class Spectra:
         self.images = grid.shape[0] - 1 if grid.mirror else 0
         if grid.mirror:
             self.faces = np.append(-self.faces[:1:-1], self.faces)
-        most = (grid.nx - 1) // LEAST_SAMPLES
+        most = (grid.nx - 1) // 32  # what is left of the kink decays as k^-8
         strides = [1 << n for n in range(most.bit_length()) if (grid.nx - 1) % (1 << n) == 0]
         self.strides = strides or [1]
         derivatives = _derivatives(grid, groups, self.y, self.faces)

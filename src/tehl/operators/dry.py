@@ -19,9 +19,6 @@ from tehl.operators.film import gap, rigid_motions
 from tehl.operators.load import Load
 from tehl.operators.transfer import refine
 
-MOST_DESCENTS, DRY_CHANGE = 400, 1e-4
-"""Most iterations, and mean change of the pressure over its mean at which they end: a thousandth
-of it is then left, as little as a start and the place of a spike need."""
 SEARCHED, SEARCHED_CELLS = (65, 129), (0.05, 0.01)
 """Nodes on which the loaded part of a roller is searched, and lengths of the cells where it was
 found to end, on which it is searched again, in half-widths."""
@@ -42,15 +39,10 @@ it starts from that of half as many."""
 
 
 @lru_cache(maxsize=8)
-def dry_roller(grid: Grid, groups: Groups) -> tuple[Array, Array]:
+def _dry_roller(grid: Grid, groups: Groups) -> tuple[Array, Array]:
     """Return the dry pressure of a roller, ``grid.shape``, and its tilts, both read-only [-].
 
     Tilts are those that follow from stated moments, (motions - 1,), beside that of the shape.
-
-    Parameters
-    ----------
-    grid, groups : Grid, Groups
-        Nodes, and the roller under its load.
     """
     shape, load, deformation = groups.shape, Load(grid), choose("fft", grid, groups)
     undeformed = gap(grid, groups)
@@ -63,7 +55,7 @@ def dry_roller(grid: Grid, groups: Groups) -> tuple[Array, Array]:
     conjugate, before, tilts, known = 0.0, 1.0, np.zeros(0), False
     modes, moments = rigid_motions(grid, groups)
     modes = modes[1:, :, None]
-    for _ in range(MOST_DESCENTS):
+    for _ in range(400):
         touching = p > 0.0
         if not known:
             deformation.deflect(p, film)
@@ -90,7 +82,8 @@ def dry_roller(grid: Grid, groups: Groups) -> tuple[Array, Array]:
             film = scale * (film - length * moved)
         _take_moments(p, load, modes, moments)
         conjugate, before = 0.0 if missed.any() else 1.0, square
-        if float(np.abs(p - last).sum()) < DRY_CHANGE * float(p.sum()):
+        # a thousandth of p is then left, as little as a start and the place of a spike need
+        if float(np.abs(p - last).sum()) < 1e-4 * float(p.sum()):
             break
     p.flags.writeable = tilts.flags.writeable = False
     return p, tilts
@@ -99,7 +92,7 @@ def dry_roller(grid: Grid, groups: Groups) -> tuple[Array, Array]:
 def _first_pressure(grid: Grid, groups: Groups) -> Array:
     """Return the pressure of slices, on many lines that crowd that of the next coarser grid."""
     if grid.crowding and grid.ny > STEEP_LINES and grid.can_coarsen():
-        return refine(dry_roller(grid.coarser(), groups)[0], grid)
+        return refine(_dry_roller(grid.coarser(), groups)[0], grid)
     return groups.shape.dry_pressure(grid.x[None, :], grid.y[:, None])
 
 
@@ -134,7 +127,7 @@ def dry_pressure(grid: Grid, groups: Groups) -> Array:
         Shape of the contact.
     """
     if groups.roller is not None:
-        return dry_roller(grid, groups)[0].copy()
+        return _dry_roller(grid, groups)[0].copy()
     return groups.shape.dry_pressure(grid.x[None, :], grid.y[:, None])
 
 
@@ -208,7 +201,7 @@ def _loaded_part(grid: Grid, groups: Groups) -> tuple[tuple[float, float], float
 
     A ramp is the distance in Y from that place to half of the largest pressure.
     """
-    highest = grid.unfold(dry_roller(grid, groups)[0]).max(axis=1)
+    highest = grid.unfold(_dry_roller(grid, groups)[0]).max(axis=1)
     whole = replace(grid, mirror=False)
     faces, y = whole.faces, whole.y
     first, last = np.nonzero(highest)[0][[0, -1]]
@@ -227,5 +220,5 @@ def dry_motions(grid: Grid, groups: Groups, approach: float = 0.0) -> Array:
     approach : float
         H00 [-].
     """
-    tilts = np.zeros(0) if groups.roller is None else dry_roller(grid, groups)[1]
+    tilts = np.zeros(0) if groups.roller is None else _dry_roller(grid, groups)[1]
     return np.append(approach, tilts)

@@ -28,8 +28,6 @@ from tehl.operators.trail import Trail, TurningTrail, VaryingTrail
 from tehl.operators.transfer import midpoints
 from tehl.operators.transient_film import MakeTrail, Path, TransientFilm, without_history
 
-FAR_FILM = 1e3
-"""Film thickness in the rows that fill up the last block [-]: so thick that it hardly warms."""
 MIXED = 20.0
 """Peclet number of the film times H^2 above which the conductivity is increased: far out in the
 inlet the nodes across the film cannot resolve the layers at the walls. Values from 5 to infinity
@@ -356,7 +354,8 @@ def _initial_fields(grid: Grid, film: HeatedFilm) -> Fields:
         past=np.zeros((1, 1, 1)),
         pressing=np.zeros((1, 1)),
     )
-    fields.capacity[:], fields.conductivity[:], fields.h[:] = 1.0, 1.0, FAR_FILM
+    # rows that fill up the last block have so thick a film that it hardly warms
+    fields.capacity[:], fields.conductivity[:], fields.h[:] = 1.0, 1.0, 1e3
     fields.sheared[:] = 1.0
     return fields
 

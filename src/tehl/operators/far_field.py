@@ -30,8 +30,6 @@ ANGLES, COARSER_ANGLES = 1025, (65, 257)
 the cavitation front is found first: it moves by some nodes per step."""
 Edge = tuple[slice, int] | tuple[int, slice]
 """Index of the nodes on one edge."""
-MOST_FRONTS = 200
-"""Most steps of the search for the cavitation front, which moves by some nodes per step."""
 
 
 class Gap(NamedTuple):
@@ -112,7 +110,7 @@ def angular_pressure(gap: Gap) -> tuple[Array, Array]:
         diagonal = -(to_next + to_last) - 9.0 * conductance
         source = _wedge(gap, angle)
         wet = np.interp(angle, *found) > 0.0
-        for _ in range(MOST_FRONTS):
+        for _ in range(200):
             f = _solve(to_last, diagonal, to_next, source, wet)
             inflow = to_next * np.append(f[1:], 0.0) + to_last * np.append(0.0, f[:-1])
             before, wet = wet, np.where(wet, f > 0.0, inflow > source)

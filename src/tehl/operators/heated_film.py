@@ -132,17 +132,7 @@ def film_energy(problem: ContactProblem) -> FilmEnergy:
 
 
 def _film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
-    """Return the dimensionless numbers of the energy equation (docs/theory/thermal.md, scaled).
-
-    Parameters
-    ----------
-    grid : Grid
-        Mesh widths and symmetry.
-    scaled : ScaledProblem
-        With the properties of the oil at the inlet.
-    wedge_order : int
-        Order of the upstream differences.
-    """
+    """Return the dimensionless numbers of the energy equation (docs/theory/thermal.md, scaled)."""
     problem, scales, groups = scaled.problem, scaled.scales, scaled.groups
     conductivity = problem.lubricant.ambient_conductivity or 1.0
     across = scales.film_thickness**2 / conductivity

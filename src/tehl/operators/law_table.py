@@ -20,20 +20,16 @@ from tehl.lubricant.roelands import PER_ROELANDS_PRESSURE
 from tehl.operators.flow import LARGEST_PRESSURE
 
 ROWS = 96
-KELVIN_BELOW_INLET, KELVIN_ABOVE_INLET = 60.0, 700.0
 POLE = -60.0
 """Pole of the variable 1/(T - POLE) [K]: accurate for laws in 1/T and in T."""
 RISE = 400.0
 STRESSES = 2048
-LARGEST_STRESS = 1000.0
 DIFFERENCE = 0.05
 FIT_TEMPERATURES = 48
 """Temperatures at which the polynomials are fitted."""
 FIT_TOLERANCE = 2e-6
 LARGEST_FITTED_LOG_VISCOSITY = 40.0
 """ln eta up to which the polynomials meet the tolerance."""
-HOT_RISE, FAINT_WEIGHT = 300.0, 1e-4
-"""Rise above the inlet [K] beyond which laws without a good fit get the weight `FAINT_WEIGHT`."""
 SOLID = 300.0
 """ln eta above which the viscosity is cut off: the film is effectively solid."""
 
@@ -52,8 +48,8 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
     """
     per_scale = PER_ROELANDS_PRESSURE * scales.hertz_pressure
     rows = np.linspace(0.0, np.log1p(per_scale * LARGEST_PRESSURE), ROWS)
-    coldest = max(scales.temperature - KELVIN_BELOW_INLET, COLDEST_TEMPERATURE)
-    hottest = scales.temperature + KELVIN_ABOVE_INLET
+    coldest = max(scales.temperature - 60.0, COLDEST_TEMPERATURE)
+    hottest = scales.temperature + 700.0
     ends = 1.0 / (coldest - POLE), 1.0 / (hottest - POLE)
     middle, half = 0.5 * (ends[0] + ends[1]), 0.5 * (ends[0] - ends[1])
 
@@ -119,7 +115,7 @@ def newtonian_limit(lubricant: Lubricant) -> float:
 
 def _known(warmer: Array) -> Array:
     """Return the fit weights of temperature rises [K]: small beyond those of films."""
-    return np.where(warmer < HOT_RISE, 1.0, FAINT_WEIGHT)
+    return np.where(warmer < 300.0, 1.0, 1e-4)
 
 
 def _terms(
@@ -163,7 +159,7 @@ def _terms(
 
 def thinning_table(lubricant: Lubricant) -> tuple[Array, float]:
     """Return ln F and its slope over s/(1 + s), and the rows per unit of it."""
-    top = min(lubricant.shear.largest_stress, LARGEST_STRESS)
+    top = min(lubricant.shear.largest_stress, 1000.0)
     step = top / (1.0 + top) / (STRESSES - 1)
     row = step * np.arange(float(STRESSES))
     shift = 0.1 * step

@@ -24,12 +24,8 @@ ALONG, ACROSS = 8, 2
 """Patch half-widths on the finest grid, along the axis that is halved and across it."""
 LUMPING_DISTANCE = 40
 """Nodes beyond the patch of which the corrections are lumped."""
-DIRECT_SUM_NODES = 400
-"""Nodes at or below which the sum is direct."""
 PAD = 24
 """Ghost rows and columns of the work arrays on each side."""
-LARGEST_PATCH_GROWTH = 10
-"""Most nodes by which the patch grows: it stays within the ghost rows."""
 STEPS = (1, 3, 5)
 WEIGHTS = (150.0 / 256.0, -25.0 / 256.0, 3.0 / 256.0)
 """Sixth-order interpolation of a midpoint: offsets to both sides, in fine mesh widths, weights."""
@@ -131,10 +127,11 @@ class MultilevelDeformation:
         self.stages = [_stage(0, ny - 1, 0, nx - 1, grid.mirror)]
         self.halvings: list[RowHalving | ColumnHalving] = []
         stride, halved = [1, 1], [0, 0]
-        while _count(self.stages[-1].box) > DIRECT_SUM_NODES:
+        while _count(self.stages[-1].box) > 400:  # a sum over fewer is direct
             axis, fine = _finer_axis(influence, stride), self.stages[-1]
-            # an error on a coarse grid weighs as much as one on the finest: the patch grows
-            growth = min(2 * halved[axis], LARGEST_PATCH_GROWTH)
+            # an error on a coarse grid weighs as much as one on the finest: the patch grows,
+            # within the ghost rows
+            growth = min(2 * halved[axis], 10)
             patch = _patch_corrections(influence, (axis, stride[0], stride[1]), growth)
             self.stages.append(_coarser(fine.box, axis))
             self.halvings.append(_halve(patch, axis, fine, self.stages[-1]))
@@ -195,19 +192,8 @@ def _count(box: Box) -> int:
 def _patch_corrections(influence: Influence, step: tuple[int, int, int], growth: int) -> Array:
     """Return the kernel less its interpolation at offsets along and across the halved axis.
 
-    Parameters
-    ----------
-    influence : Influence
-        Influence at offsets of the finest grid.
-    step : (axis, row stride, column stride)
-        The axis that is halved and the strides of this grid on the finest one.
-    growth : int
-        Nodes added to both half-widths of the patch.
-
-    Returns
-    -------
-    (1 + along, 1 + across) array
-        Corrections by the two half-widths of the patch.
+    ``step`` is that axis, and the strides along rows and columns of this grid on the finest one;
+    ``growth`` nodes are added to both half-widths of the patch, by which the corrections are.
     """
     axis, row_stride, column_stride = step
     reach, width = ALONG + growth + 1, ACROSS + growth + 1

@@ -16,9 +16,6 @@ from tehl.roughness import AnyRoughness, Roughness
 from tehl.roughness.resolution import Resolution
 
 _SAMPLES_PER_AXIS = 513
-_FLAT_SQ = 1e-13
-"""Sq below which a surface counts as flat [m]."""
-_MOST_WINDOWS = 8
 
 
 class Sample(NamedTuple):
@@ -106,12 +103,12 @@ def _centres(roughness: AnyRoughness, problem: ContactProblem) -> list[float]:
         return [0.0]
     extents = (part.extent(problem.hertz.half_width_y)[0] for part in components(roughness))
     middles = {0.5 * sum(ends) if math.isfinite(sum(ends)) else 0.0 for ends in extents}
-    return sorted(middles)[:_MOST_WINDOWS] or [0.0]
+    return sorted(middles)[:8] or [0.0]
 
 
 def _sq(roughness: Roughness, place: Sample) -> float:
     found = float(np.std(_heights(roughness, place)))
-    return found if found > _FLAT_SQ else 0.0
+    return found if found > 1e-13 else 0.0  # it is flat
 
 
 def _heights(roughness: Roughness, place: Sample) -> Array:

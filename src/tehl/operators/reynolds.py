@@ -18,8 +18,6 @@ from tehl.operators.influence import Influence
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
 """Weights of rho H of a node and of its upstream neighbours in the wedge, by its order [1/dx]."""
-NODE_ROUNDING = 1e-9
-"""Rounding of a number of mesh widths."""
 CUBIC = (-1, 0, 1, 2)
 """Nodes of the cubic interpolation, upstream of the node before the place."""
 INFLUENCE_NODES = 8
@@ -154,7 +152,7 @@ def carried(field: Array, distance: float, *, limited: bool = False) -> Array:
     if distance < 0.0:
         return carried(field[:, ::-1], -distance, limited=limited)[:, ::-1]
     whole = round(distance)
-    if abs(distance - whole) < NODE_ROUNDING:
+    if abs(distance - whole) < 1e-9:
         return upstream(field, whole) if whole else field.copy()
     nodes, s = int(distance), distance - int(distance)
     ghosts = nodes + len(CUBIC) - 1

@@ -368,13 +368,7 @@ class Solids:
 
 
 def _between(grid: Grid, rows: int) -> tuple[Array, Array]:
-    """Return the matrices of linear interpolation to uniform rows, on which sources sum, and back.
-
-    Parameters
-    ----------
-    grid, rows : Grid, int
-        With lines that crowd; number of uniform rows over the same length.
-    """
+    """Return the linear interpolation to uniform rows, on which sources sum, and back."""
     y = grid.y
     uniform = np.linspace(y[0], y[-1], rows)
     there, back = (
@@ -390,15 +384,6 @@ def _streams(
     """Return the source along the paths of a surface; with a full source also that of its centre.
 
     A line needs none, as nothing changes along y.
-
-    Parameters
-    ----------
-    x, y : Array
-        Nodes [a_x].
-    side, factor : Side, float
-        The solid, and the factor of its line source.
-    full : bool
-        Whether the full source of the velocity at the centre is summed.
     """
     if y.size == 1 or not side.streams or (full and side.spin == 0.0):
         return ()

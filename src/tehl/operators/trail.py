@@ -119,14 +119,8 @@ class VaryingTrail:
 
         With S the interpolation of a field where it was a step ago, the exponentials are the
         solution of ``(I - decay S) E = S (older S q + newer q)``, a band along each line. To
-        step there takes thirty times as long: 8 s of a half domain of 641 x 641 nodes.
-
-        Parameters
-        ----------
-        flux : (ny, nx) array
-            Steady flux, also beyond the edges.
-        nodes : float
-            Mesh widths that the surface moves per step.
+        step there takes thirty times as long: 8 s of a half domain of 641 x 641 nodes. The flux is
+        that beyond the edges too; the surface moves by ``nodes`` mesh widths per step.
         """
         moved = _interpolation(flux.shape[1], nodes)
         before = (moved @ flux.T).T
@@ -143,7 +137,7 @@ class VaryingTrail:
 
     def move(self, way: Way) -> None:
         """Begin a step in which the surface moves along x by a way [a_x]."""
-        shift = shift_by(way.along / self.spacing)
+        shift = _shift_by(way.along / self.spacing)
         trail.carry_varying(self.modes, self.fluxes, self.weights, shift, self.line, self.wide)
         self.past = self.wide[:, self.inside].T
 
@@ -198,13 +192,6 @@ class TurningTrail:
         """Begin with the sum of what the surface took up in twice as many steps each time.
 
         A surface that turns has left after half a turn; what it brings after a whole one is lost.
-
-        Parameters
-        ----------
-        flux : (ny nx,) array
-            Steady flux.
-        way, passing : Way, int
-            Of a step, and the number of steps.
         """
         moved = self.carrier.entering(way)
         before = moved @ flux
@@ -264,29 +251,16 @@ def _interpolation(nx: int, nodes: float) -> csc_array:
     """Return the interpolation along x of a field where it was a step ago, (nx, nx).
 
     Upstream of the nodes nothing has heated the surface, downstream it is as warm as at the edge.
-
-    Parameters
-    ----------
-    nx : int
-        Nodes along x.
-    nodes : float
-        Mesh widths that the surface moves per step.
     """
-    shift, rows = shift_by(nodes), np.repeat(np.arange(nx), 4)
+    shift, rows = _shift_by(nodes), np.repeat(np.arange(nx), 4)
     columns = (np.arange(nx)[:, None] + shift.first + shift.step * np.arange(4)).ravel()
     upstream = columns < 0 if nodes > 0.0 else columns >= nx
     weights = np.where(upstream, 0.0, np.tile(shift.weights, nx))
     return csc_array((weights, (rows, np.clip(columns, 0, nx - 1))), shape=(nx, nx))
 
 
-def shift_by(nodes: float) -> trail.Shift:
-    """Return the interpolation of a field where it was ``nodes`` mesh widths ago.
-
-    Parameters
-    ----------
-    nodes : float
-        Distance along x; negative where the surface moves against x.
-    """
+def _shift_by(nodes: float) -> trail.Shift:
+    """Return the interpolation of a field where it was ``nodes`` mesh widths along x ago."""
     sign, whole = (-1 if nodes < 0.0 else 1), int(abs(nodes))
     one, two, three, four = cubic_weights(abs(nodes) - whole)
     return trail.Shift(-sign * (whole + CUBIC[0]), -sign, (one, two, three, four))

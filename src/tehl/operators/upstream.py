@@ -24,8 +24,6 @@ from tehl.estimate.scaling import Groups
 
 MOST_THICKENING = 0.5
 """alpha P_0 at the edge beyond which a domain is too short to have the oil outside by this."""
-GAUSS_NODES = 16
-"""Nodes of the sum of Gauss; with twice as many it changes by less than 1e-6."""
 
 
 class Beyond(NamedTuple):
@@ -90,7 +88,7 @@ def beyond(
     """
     t, weight = _gauss()
     x = edge / t
-    h = gap_beyond(edge, film[:, None], t, curvature)
+    h = _gap_beyond(edge, film[:, None], t, curvature)
     slope = groups.lambda_bar * speed[:, None] * weight * (h - flux[:, None]) / h**3  # P' |dX|
     slope *= -edge / t**2
     thicker = np.minimum(groups.alpha_bar * slope.sum(axis=1), MOST_THICKENING)
@@ -99,18 +97,8 @@ def beyond(
     return Beyond(slope.sum(axis=1), moments, (slope * h).sum(axis=1))
 
 
-def gap_beyond(edge: float, film: Array, t: Array, curvature: float = 1.0) -> Array:
-    """Return H upstream of an edge at X = edge / t [-].
-
-    Parameters
-    ----------
-    edge, film : float, array
-        X_a < 0, and H there [-].
-    t : array
-        Between 0 and 1.
-    curvature : float
-        1/R_x over that of the contact [-].
-    """
+def _gap_beyond(edge: float, film: Array, t: Array, curvature: float = 1.0) -> Array:
+    """Return H upstream of an edge, at X = edge / t [-], from the film there."""
     x = edge / t
     bent = 0.5 * np.log(t) + (1.0 / x**2 - 1.0 / edge**2) / 16.0
     return np.asarray(film + 0.5 * curvature * (x**2 - edge**2) + bent)
@@ -145,7 +133,7 @@ def rolling(
     x, pressure, film = sign * lines.x[way], lines.pressure[:, way], lines.film[:, way]
     tail = 0.0
     if oil is not None and moment.speed != 0.0:
-        speed = incoming(sign * (moment.speed - lines.slower), film.shape[0])
+        speed = _incoming(sign * (moment.speed - lines.slower), film.shape[0])
         flux, curvature = np.minimum(oil, film[:, 0]), moment.curvature
         upstream = beyond(float(x[0]), film[:, 0], flux, groups, speed=speed, curvature=curvature)
         tail = float(upstream.rolling @ widths)
@@ -156,21 +144,18 @@ def rolling(
     return sign * found, float(centre @ widths) / on_grid if on_grid else 1.0, sign * tail
 
 
-def incoming(speed: Array | float, lines: int) -> Array:
-    """Return the speed of each of some lines towards the contact, zero where oil leaves, (n,) [-].
-
-    Parameters
-    ----------
-    speed, lines : Array or float, int
-        Of all of them or of each, and their number.
-    """
+def _incoming(speed: Array | float, lines: int) -> Array:
+    """Return the speed of each line towards the contact, zero where oil leaves, (n,) [-]."""
     return np.maximum(np.broadcast_to(speed, (lines,)), 0.0)
 
 
 @cache
 def _gauss() -> tuple[Array, Array]:
-    """Return the nodes between 0 and 1 and their weights."""
-    nodes, weights = np.polynomial.legendre.leggauss(GAUSS_NODES)
+    """Return the nodes of Gauss between 0 and 1 and their weights.
+
+    With twice as many, sums change by less than 1e-6.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(16)
     return 0.5 * (nodes + 1.0), 0.5 * weights
 
 
@@ -189,7 +174,7 @@ class UpstreamField:
 
     def __init__(self, grid: Grid, groups: Groups, speed: Array | float) -> None:
         self.edge, self.groups = grid.domain.x[0], groups
-        self.speed = incoming(speed, grid.shape[0])
+        self.speed = _incoming(speed, grid.shape[0])
         self.middle = int(np.argmin(np.abs(grid.x)))
         self.widths = grid.widths
 
@@ -235,7 +220,7 @@ class UpstreamField:
             for change in (step, -step)
         )
         t, weight = _gauss()
-        x, h = self.edge / t, gap_beyond(self.edge, inlet[:, None], t)
+        x, h = self.edge / t, _gap_beyond(self.edge, inlet[:, None], t)
         fastest = self.groups.lambda_bar * self.speed[:, None]
         per_flux = fastest * self.edge / t**2 * weight / h**3
         by_flux, load_by_flux, load_by_rate = (

@@ -22,8 +22,8 @@ from scipy.sparse.csgraph import connected_components
 
 from tehl.base.typing import Array
 
-PATCH_TOLERANCE, MOST_ITERATIONS = 1e-7, 2000
-"""Relative change of the pressure at which the iteration ends, and most iterations."""
+MOST_ITERATIONS = 2000
+"""Of a contact; the last change of the pressure is then beyond 1e-7."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -114,7 +114,7 @@ def pressed(
         after *= pressure / after.mean()
         error = float(np.abs(after - p).mean()) / pressure
         p = after
-        if error < PATCH_TOLERANCE:
+        if error < 1e-7:
             gap = deflection(p) - heights
             gap -= gap[p > 0.0].mean()
             return DryContact(pressure=p, gap=np.where(p > 0.0, 0.0, np.maximum(gap, 0.0)))

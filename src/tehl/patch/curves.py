@@ -19,9 +19,6 @@ LARGEST_PATCH_NODES = 192
 """Most points of a patch along x and y: of a larger one the middle is taken."""
 FLOW = 128
 """Most points along x and y for the flow: of a finer gap every second point, and so on."""
-FIRST_LOAD, LOAD_FACTOR, LAST_MEAN_GAP = 3e-5, 1.2, 0.05
-"""Mean pressure over E* and slope of the first load, factor of the next one, and mean gap over Sq
-of the last."""
 VANISHES = 30.0
 """Gap over Sq from which a sliding patch carries what the gap holds."""
 
@@ -132,14 +129,14 @@ def patch_curves(z: Array, pixel: tuple[float, float]) -> PatchCurves:
     stride = max(1, -(-max(z.shape) // FLOW))
     rows: list[tuple[float, ...]] = []
     flows: list[tuple[float, ...]] = []
-    pressure, start = FIRST_LOAD * slope, None
+    pressure, start = 3e-5 * slope, None
     while True:
         try:
             found = pressed(z, pixel, pressure, start)
         except ArithmeticError as error:
             raise InputError(f"asperities.map: {error}; a lambda_s removes spikes") from None
         gap = found.mean_gap / sigma
-        if gap < LAST_MEAN_GAP:
+        if gap < 0.05:
             break
         number = found.spots / (z.size * pixel[0] * pixel[1])
         if len(rows) % 3 == 0:  # the flow is smoother and takes six times as long
@@ -148,7 +145,7 @@ def patch_curves(z: Array, pixel: tuple[float, float]) -> PatchCurves:
             factors = (flow.along ** (1.0 / 3.0), flow.carried)
             flows.append((gap, flow.across / flow.along, *(one / mean for one in factors)))
         rows.append((gap, found.mean_pressure, found.area, number))
-        start, pressure = found.pressure, LOAD_FACTOR * pressure
+        start, pressure = found.pressure, 1.2 * pressure
     gaps, load, area, number = np.array(rows[::-1]).T
     at, *others = np.array(flows[::-1]).T
     inside = np.clip(gaps, at[0], at[-1])

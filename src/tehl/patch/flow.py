@@ -18,9 +18,6 @@ from scipy.sparse.linalg import splu
 
 from tehl.base.typing import Array
 
-LEAST_CONDUCTANCE = 1e-9
-"""Least g^3 over its mean, so that closed pools have a pressure."""
-
 
 class Flow(NamedTuple):
     """Mean flow through a gap."""
@@ -43,7 +40,7 @@ def flow_through(gap: Array, pixel: tuple[float, float]) -> Flow:
         Distances dx, dy.
     """
     cubed = gap**3
-    cubed = np.maximum(cubed, LEAST_CONDUCTANCE * cubed.mean())
+    cubed = np.maximum(cubed, 1e-9 * cubed.mean())  # so that closed pools have a pressure
     gap = np.cbrt(cubed)
     (dx, dy), size = pixel, gap.size
     nodes = np.arange(size).reshape(gap.shape)

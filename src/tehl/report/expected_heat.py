@@ -35,8 +35,6 @@ from tehl.post.thermal_effect import isothermal_reference
 
 ASSUMED_TRACTION = 0.05
 """Traction coefficient where the viscosity does not depend on temperature."""
-TYPICAL_CONDUCTIVITY = 0.14
-"""Of an oil that states none [W/m/K]."""
 NOTICEABLE = 3.0
 """Difference between a body and the oil at the inlet that is reported [K]."""
 _PEAK = 1.5  # Hertzian shape: centre over mean
@@ -226,7 +224,7 @@ def _heat_path(
         resistance.append(factor * width / (conductivity * root))
     return _HeatPath(
         resistance=(resistance[0], resistance[1]),
-        film=film / (problem.lubricant.ambient_conductivity or TYPICAL_CONDUCTIVITY),
+        film=film / (problem.lubricant.ambient_conductivity or 0.14),  # of a usual oil [W/m/K]
         bulk=(inlet, inlet) if heat is None else (heat.bulk_1, heat.bulk_2),
     )
 

@@ -13,13 +13,9 @@ from tehl.base.typing import Array, BoolArray
 Level = Literal["none", "mean", "plane", "quadratic"]
 Fill = Literal["auto", "linear", "nearest", "refuse"]
 
-FEW_MISSING, MOST_MISSING = 0.01, 0.5
-"""Share of missing points that is filled by default, and that no filling bridges."""
 RELATIVE_ROUNDING = 1e-12
 _DEGREE = {"mean": 0, "plane": 1, "quadratic": 2}
 _ALPHA = math.sqrt(math.log(2.0) / math.pi)
-_MOST_LEFT, _BEND_SHARE = 0.5, 0.2
-"""Sq without the quadratic over Sq below which it is odd; share of a bend that is named."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -136,9 +132,9 @@ def _check_gaps(missing: BoolArray, how: Fill, spikes: int) -> None:
     )
     if share == 1.0:
         raise InputError("has no point with a height")
-    if share > MOST_MISSING:
+    if share > 0.5:
         raise InputError(f"{gaps}: that is too much to fill, crop the map")
-    if how == "refuse" or (how == "auto" and share > FEW_MISSING):
+    if how == "refuse" or (how == "auto" and share > 0.01):
         raise InputError(f'{gaps}: crop the map, or say how to fill them, fill = "linear"')
 
 
@@ -299,7 +295,7 @@ def note_on_form(heights: Heights, level: Level) -> tuple[str, ...]:
     if level == "quadratic":
         return ()
     form = form_of(heights)
-    if not form.sq_without < _MOST_LEFT * form.sq:
+    if not form.sq_without < 0.5 * form.sq:
         return ()
     return (
         f'the map {_shape(form)} (level = "{level}"), and without that its Sq is '
@@ -314,7 +310,7 @@ def _shape(form: Form) -> str:
     bends = [
         f"of {_metres(1.0 / abs(curvature))} along {axis}"
         for axis, curvature, sag in zip("xy", form.curvatures, form.sags, strict=True)
-        if abs(sag) > _BEND_SHARE * whole
+        if abs(sag) > 0.2 * whole
     ]
     if not bends:
         return "is twisted as a saddle"
