@@ -28,6 +28,7 @@ from tehl.solver.cycle.ladder import (
     TOUCHING,
     UNCOMBINED,
     UNDAMPED,
+    UNDAMPED_FIRST,
     Strategy,
     ladder,
 )
@@ -119,6 +120,26 @@ def test_the_steep_front_of_a_thinning_oil_converges_without_combined_cycles(
     ring, options = case_from_tables(tables)[0], OPTIONS.on_points(97, 49)
     found = steady.try_strategies(ring, options, monitor=SILENT, rough=False)[1]
     assert found.status.converged
+
+
+def test_heavy_films_are_tried_undamped_first_which_saves_cycles(
+    hybrid_bearing: ContactProblem, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    usual = ladder(ScaledProblem.of(hybrid_bearing), OPTIONS, rough=False)
+    cycles, films = [], []
+    for one in usual[:2]:
+        monkeypatch.setattr(steady, "ladder", lambda *_, one=one, **__: (one,))
+        options = OPTIONS.on_points(129, 65)
+        found = steady.try_strategies(hybrid_bearing, options, monitor=SILENT, rough=False)[1]
+        assert found.status.converged or found.status.cause == "grid_too_coarse"
+        cycles.append(len(found.history))
+        films.append(found.film_scaled.minimum)
+    assert usual[0] is UNDAMPED_FIRST
+    assert cycles[0] <= 0.8 * cycles[1]
+    assert films[0] == pytest.approx(films[1], rel=2e-3)
+    tables = hybrid_bearing.model_dump(exclude_none=True)
+    starved = ContactProblem.model_validate({**tables, "supply": {"ratio": 0.7}})
+    assert UNDAMPED_FIRST not in ladder(ScaledProblem.of(starved), OPTIONS, rough=False)
 
 
 def test_steep_fronts_are_tried_without_combined_cycles_first(

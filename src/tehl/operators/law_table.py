@@ -53,18 +53,20 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
     ends = 1.0 / (coldest - POLE), 1.0 / (hottest - POLE)
     middle, half = 0.5 * (ends[0] + ends[1]), 0.5 * (ends[0] - ends[1])
 
+    # a column of pressures and a row of temperatures: laws evaluate what depends on one once
     def ln_eta(row: Array, t: Array) -> Array:
-        pressure, temperature = np.broadcast_arrays(
-            np.expm1(row) / PER_ROELANDS_PRESSURE, POLE + 1.0 / (middle + half * t)
+        pressure, temperature = (
+            np.expm1(row) / PER_ROELANDS_PRESSURE,
+            POLE + 1 / (middle + half * t),
         )
         eta = lubricant.viscosity.viscosity(pressure, temperature) / scales.viscosity
-        return np.minimum(np.log(np.maximum(eta, 1e-300)), SOLID)
+        known = np.minimum(np.log(np.maximum(eta, 1e-300)), SOLID)
+        return np.broadcast_to(known, np.broadcast_shapes(row.shape, t.shape))
 
     def rho(row: Array, t: Array) -> Array:
-        pressure, temperature = np.broadcast_arrays(
-            np.expm1(row) / PER_ROELANDS_PRESSURE, scales.temperature + RISE * t
-        )
-        return lubricant.density.density(pressure, temperature) / scales.density
+        pressure, temperature = np.expm1(row) / PER_ROELANDS_PRESSURE, scales.temperature + RISE * t
+        known = lubricant.density.density(pressure, temperature) / scales.density
+        return np.broadcast_to(known, np.broadcast_shapes(row.shape, t.shape))
 
     thinning, per_stress = thinning_table(lubricant)
     unit = np.cos(np.pi * (np.arange(FIT_TEMPERATURES) + 0.5) / FIT_TEMPERATURES)
