@@ -435,10 +435,12 @@ def test_a_film_that_rests_while_its_residual_grows_is_kept_with_a_larger_error(
     [
         ((1e-4, 5e-5, 7e-5, 1e-4), True),
         ((6e-6, 2e-6, 4e-6, 1e-6, 3e-6), False),
+        ((6e-4, 8e-4, 3e-4, 7e-4), False),
+        ((6e-4, 8e-4, 3e-4, 7e-4, 5e-4, 8e-4), True),
         ((1.0, 2.0), False),
     ],
 )
-def test_cycles_recede_where_the_residual_grows_twice_in_succession(
+def test_cycles_recede_where_the_residual_grows_twice_in_succession_or_in_all(
     residuals: tuple[float, ...], found: bool
 ) -> None:
     trace = GridTrace()

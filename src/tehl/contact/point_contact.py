@@ -319,16 +319,23 @@ class PointContact(LubricatedPair):
     """Frequencies of the stiffness and damping of the film; None does not compute them."""
 
     @property
+    def bulk_temperatures(self) -> tuple[float, float]:
+        """Return the temperatures of both bodies, that of the inlet if not stated [K]."""
+        inlet = self.inlet_temperature
+        stated = self.surface_1.temperature, self.surface_2.temperature
+        first, second = (inlet if one is None else one for one in stated)
+        return first, second
+
+    @property
     def heat(self) -> FilmEnergy | None:
         """Return the heat problem of the film, None if it is isothermal."""
         if self.thermal is None:
             return None
-        inlet, first = self.inlet_temperature, self.surface_1.temperature
-        second = self.surface_2.temperature
+        first, second = self.bulk_temperatures
         return FilmEnergy(
-            temperature=inlet,
-            bulk_1=inlet if first is None else first,
-            bulk_2=inlet if second is None else second,
+            temperature=self.inlet_temperature,
+            bulk_1=first,
+            bulk_2=second,
             reynolds=self.thermal.reynolds,
             layers=self.thermal.nodes(self.thermal_loading or 0.0),
             scheme=self.thermal.scheme,

@@ -161,11 +161,10 @@ def groups(problem: ContactProblem) -> Groups:
 
 def _body_viscosity(problem: ContactProblem) -> float:
     """Return the viscosity of the oil at the temperatures of the bodies, over that at the inlet."""
-    heat = problem.heat
-    if heat is None or heat.bulk_1 == heat.bulk_2 == heat.temperature:
+    bulk = problem.bulk_temperatures
+    if problem.thermal is None or bulk[0] == bulk[1] == problem.inlet_temperature:
         return 1.0
-    ambient = problem.lubricant.viscosity.ambient
-    first, second = (float(ambient(bulk)) for bulk in (heat.bulk_1, heat.bulk_2))
+    first, second = map(float, map(problem.lubricant.viscosity.ambient, bulk))
     return math.sqrt(first * second) / problem.ambient_viscosity
 
 

@@ -167,8 +167,10 @@ class GridIteration:
     def _is_done(self, trace: GridTrace, *, finest: bool) -> bool:
         """Return whether the iteration on a grid has converged or stalled."""
         coarser = self._coarser_trace()
+        fails = stalled(trace, self.strategy.patience)
+        fails = fails or (finest and self.strategy.gives_up and recedes(trace))
         if not self.balance.is_settled:
-            return stalled(trace, self.strategy.patience)
+            return fails
         if not finest:
             done = film_converged(trace, coarser) and temperature_converged(trace, coarser)
             return done or stalled(trace, self.coupling.patience)
@@ -176,8 +178,6 @@ class GridIteration:
         negligible = max(self._negligible(), spare)
         trace.criteria = replace(trace.criteria, negligible=negligible)
         done = self.balance.is_kept and must_stop(trace, coarser, self.options)
-        fails = stalled(trace, self.strategy.patience)
-        fails = fails or (self.strategy.gives_up and recedes(trace))
         if fails and not done and self.balance.is_kept:
             doubtful = trace.doubted()
             if converged(doubtful, coarser, self.options):  # the film rests, single nodes do not
@@ -187,8 +187,9 @@ class GridIteration:
 
     def awaits_oil(self) -> bool:
         """Return whether the error to reach is exceeded by that of the oil balance alone."""
-        found, oil = self.errors(), self.balance.oil_error
-        if found is None or oil <= LARGEST_OIL_ERROR:
+        oil = self.balance.oil_error
+        found = self.errors() if oil > LARGEST_OIL_ERROR else None
+        if found is None:
             return False
         without = replace(found, supply=found.supply - oil)
         return self.goal.is_met(without) and not self.goal.is_met(found)
