@@ -18,6 +18,7 @@ from tehl.plots.oil import oil_map
 from tehl.post.layer import LayerDecay, check_layer, layer_decay
 from tehl.post.starvation import meniscus, oil_flux
 from tehl.solver import steady
+from tehl.solver.monitor import SILENT
 from tehl.solver.physics.passes import PassState
 from tehl.solver.transient.step import Stepper
 from tests.cases import ball_tables
@@ -489,3 +490,20 @@ def test_the_table_is_accurate_and_ends_in_the_law(film):
     assert factors[:, :, 0] == pytest.approx(1.0 + 0.0 * factors[:, :, 0], abs=0.01)
     assert speeds.size * ratios.size * loads.size == factors.size
     assert starved_degree(film.groups, 50.0) == (starved_part(50.0), None)
+
+
+def test_the_flooded_film_that_a_supply_is_part_of_takes_half_of_the_lines() -> None:
+    """A circle, M = 450, whose minimum film at the sides needs twice as many lines as columns."""
+    flooded, options = moes_contact(450.0, 2.0, radius_ratio=1.0), Options(error=0.01)
+    found, finer = (
+        steady.try_strategies(
+            flooded, options, monitor=SILENT, rough=False, of_central=True, nodes=nodes
+        )[1]
+        for nodes in (None, (161, 321))
+    )
+    (nx, ny), errors = found.history[-1].points, found.errors
+    assert nx == ny
+    assert errors is not None
+    assert errors.central < 0.01
+    central = finer.film_scaled.central
+    assert found.film_scaled.central == pytest.approx(central, rel=errors.central)

@@ -207,7 +207,7 @@ def _points_of_waves(
     return min(found)[2:]
 
 
-def planned(scaled: ScaledProblem, options: Options) -> Options:
+def planned(scaled: ScaledProblem, options: Options, *, of_central: bool = False) -> Options:
     """Return ``options`` with the nodes on which the error to reach is expected.
 
     Options that state ``points`` are returned as they are. Others of a rough point contact get a
@@ -219,6 +219,8 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
         Its expected film, waves and inlet temperature decide the nodes.
     options : Options
         With the error to reach; stated ``points`` are kept.
+    of_central : bool
+        Whether the error is that of the central film alone, for which fewer lines are enough.
     """
     options = settled(scaled.problem, options)
     if options.points != "auto":
@@ -231,7 +233,8 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
 
     def enough(least: float) -> tuple[int, int]:
         if options.order > 2 and not kind.is_line:
-            return _third_order_points(scaled, domain, options.target, least)
+            sides = math.inf if of_central else 1.0
+            return _third_order_points(scaled, domain, options.target, least, sides)
         nodes = expected_points(
             scaled.entering,
             domain,
@@ -250,11 +253,12 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
 
 
 def _third_order_points(
-    scaled: ScaledProblem, domain: Domain, error: float, least: float
+    scaled: ScaledProblem, domain: Domain, error: float, least: float, sides: float
 ) -> tuple[int, int]:
     """Return nodes (nx, ny) with a wedge of third order for an error of the film.
 
-    They are more than ``least`` along x. Without a margin the fewest are taken, with more along x
+    They are more than ``least`` along x. Films at the sides of slender contacts and circles may err
+    by ``sides`` times as much. Without a margin the fewest are taken, with more along x
     if half as many along y are then enough.
     """
     left = _left_to_the_mesh(scaled.entering, domain, error - entry_error(scaled, domain))
@@ -265,7 +269,7 @@ def _third_order_points(
     has_margin = has_margin or scaled.problem.supply is not None
     most = left if has_margin else EXPECTED_BAR_MARGIN * left
     enough = (n for n in FAVOURED if n > least and third_order_bar(scaled, domain, n) <= most)
-    grids = [(n, _lines(scaled, domain, n, left)) for n in enough]
+    grids = [(n, _lines(scaled, domain, n, sides * left)) for n in enough]
     grids = grids or [(FAVOURED[-1], FAVOURED[-1])]
     return grids[0] if has_margin else min(grids, key=math.prod)
 

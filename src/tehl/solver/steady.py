@@ -184,7 +184,7 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     if flooded is not None:
         scaled = replace(scaled, flooded_oil=flooded.oil, flooded_error=flooded.error)
     goal = Goal(scaled, options, of_central=of_central, until=until, tolerance=tolerance)
-    plan = planned(scaled, options)
+    plan = planned(scaled, options, of_central=of_central)
     plan = goal.fitting(plan if nodes is None else plan.on_points(*nodes))
     check_supply(scaled, domain_of(scaled, plan))
     check_film(scaled)
