@@ -62,14 +62,6 @@ class Served:
             if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()
         ]
 
-    def solving(self):
-        """Return those that solve now."""
-        return [
-            pid
-            for pid in self.workers()
-            if Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "R"
-        ]
-
     def end(self):
         """End it as Ctrl-C does; return its exit code."""
         if self.process.poll() is None:

@@ -80,8 +80,7 @@ def test_two_tabs_are_independent(page, context, served):
 
 def test_a_killed_worker_is_a_sentence_and_a_new_one_solves(page, served):
     busy(page)
-    until(served.solving)
-    for pid in served.solving():
+    for pid in served.workers():
         os.kill(pid, signal.SIGKILL)
     page.locator(".card .what", has_text="has ended").wait_for()
     solved(page, "shown is the last valid case")  # the line moves once more, and a click misses
