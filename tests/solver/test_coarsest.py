@@ -54,21 +54,40 @@ def test_an_earlier_matrix_solves_equations_that_changed_little(solved):
     assert approach == pytest.approx(there, abs=0.05 * abs(there - solved.level.rigid_approach))
 
 
-def test_a_step_empties_the_nodes_whose_oil_would_be_negative():
-    """Their oil was clipped, and the load it left: between asperities steps did not converge."""
+@pytest.fixture(scope="module")
+def between_asperities() -> CoarsestSolver:
+    """Return the solved coarsest grid of a line that runs dry between asperities."""
     hierarchy = multigrid(mixed_line(), Options(points=(129, 1))).hierarchy
-    level, coarsest = hierarchy.levels[0], hierarchy.coarsest
-    from_dry_pressure(level, hierarchy.expected_film)
-    changes = [coarsest.newton_step() for _ in range(18)]
-    assert changes[-1] < 1e-7
-    level.update()
-    assert abs(level.load_error()) < 1e-6
+    from_dry_pressure(hierarchy.levels[0], hierarchy.expected_film)
+    changes = [hierarchy.coarsest.newton_step() for _ in range(16)]
+    assert changes[-1] < 1e-9
+    hierarchy.levels[0].update()
+    return hierarchy.coarsest
+
+
+def test_steps_between_asperities_satisfy_their_equations(between_asperities):
+    """Oil was clipped where it would be negative, and the load that it left was lost."""
+    level = between_asperities.level
+    assert abs(level.load_error()) < 1e-9
     wet, separation = level.film.p > 0.0, level.separation
     assert 0 < wet.sum() < wet.size
     table = level.equations.solids.asperities
-    assert level.film.asperity == pytest.approx(table.carried(separation), abs=1e-7)
+    assert level.film.asperity == pytest.approx(table.carried(separation), abs=1e-9)
     moves = residual_of(level) / (level.stencil.cx * level.film.eps)  # as a change of pressure
-    assert np.abs(moves[:, 1:-1][wet[:, 1:-1]]).max() < 1e-7
+    assert np.abs(moves[:, 1:-1][wet[:, 1:-1]]).max() < 1e-9
+
+
+def test_a_matrix_without_rows_of_oil_is_not_used_where_oil_has_come(between_asperities):
+    """Their errors stayed, 0.9 a cycle: the steps converged, but not to the film."""
+    known, level = between_asperities.last, between_asperities.level
+    exact = stepped(between_asperities, 1.001, newton=True)
+    wet = np.flatnonzero(level.film.p.ravel() > 0.0)
+    known.work.dry[wet[wet.size // 2]] = 1
+    between_asperities.last = known
+    pressure, approach = stepped(between_asperities, 1.001, newton=False)
+    assert between_asperities.last is not known
+    assert pressure == pytest.approx(exact[0], abs=1e-12)
+    assert approach == pytest.approx(exact[1], abs=1e-12)
 
 
 def test_where_it_does_not_a_newton_step_takes_its_place(solved):

@@ -75,8 +75,7 @@ class CoarseSystem(NamedTuple):
     ``residual`` (ny, nx) of the Reynolds equation, ``influence`` (n, n), ``frozen`` (ny, nx) of 0
     and 1, ``area`` (ny, nx) that each node stands for, ``lift`` (motions, n), the film by each
     rigid motion, what is ``missing`` of the load and its moment, (motions,), and the largest change
-    of the film by rigid motions with asperities. A step takes the oil of wet nodes down to
-    ``lowest`` at most.
+    of the film by rigid motions with asperities.
     """
 
     residual: Array
@@ -87,7 +86,6 @@ class CoarseSystem(NamedTuple):
     missing: Array
     nearest: float
     yielding: float
-    lowest: float
 
 
 class Work(NamedTuple):
@@ -441,5 +439,5 @@ def take_step(state: Coarse, system: CoarseSystem, work: Work, count: int, longe
         if touches and work.dry[here]:
             state.asperity[here] += scale * work.rhs[row]
             continue
-        state.p[here] = max(state.p[here] + scale * work.rhs[row], system.lowest)
+        state.p[here] = max(state.p[here] + scale * work.rhs[row], 0.0)
     return scale

@@ -61,7 +61,7 @@ def touch(
         1 where ``p`` stays.
     reach : float
         Film of a smooth change of pressure over that change, by which asperities that lead follow
-        less; below zero ``p`` stays everywhere.
+        less; where it is infinite they keep their pressure; below zero ``p`` stays everywhere.
     """
     film, separation, laws, flow, frozen = raw((film, separation, laws, flow, frozen))
     for j in range(film.p.shape[0]):
@@ -122,7 +122,10 @@ def _share(
     for i in range(film.p.shape[1]):
         missing = film.eps[j, i] - film.asperity[j, i]
         if reach >= 0.0 and film.p[j, i] != 0.0 and frozen[j, i] == 0:
+            missing = min(missing, film.p[j, i]) if reach == np.inf else missing
             film.p[j, i] = max(film.p[j, i] - missing, 0.0)
+        elif reach == np.inf:
+            missing = 0.0
         elif reach > 0.0 and missing != 0.0:
             at, law = (separation[j, i], reach), (missing, -reach * film.stiffness[j, i])
             missing = _followed(laws, at, film.asperity[j, i], law)

@@ -6,6 +6,7 @@ from functools import cache, lru_cache
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
+from scipy.sparse.linalg import LinearOperator, gmres
 
 from tehl.base.typing import Array
 from tehl.contact.problem import ContactProblem
@@ -20,6 +21,7 @@ from tehl.contact.summits import (
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.summits import LAST_SEPARATION, LEAST_SEPARATION
 from tehl.kernels.summits import AsperityLaws
+from tehl.operators.deformation import Deformation
 
 TABLE_SEPARATION_STEP = 0.02
 """Difference of the separations at which the laws are tabulated, over sigma."""
@@ -29,6 +31,10 @@ have it, where the gap is below 0.004 sigma, and none is left at 2.7 sigma: else
 determine the separation, and cycles diverge where a coarse grid lets the planes cross far."""
 LEAST_CARRIED = 0.01
 """Least oil that is carried over that of the gap: pools of a rough surface at rest carry none."""
+
+LEFT_OF_LACKING, MOST_TOGETHER = 0.3, 10
+"""Part of what asperities lack that the solution of their linear system may leave, as the next
+evaluation goes on from there, and most iterations of GMRES."""
 
 Tables = dict[str, Array]
 """Laws over the gap over sigma, by the names of `AsperityLaws`."""
@@ -94,6 +100,35 @@ class AsperityTable:
     def separation(self, gap: float) -> float:
         """Return the separation of the mean planes at a mean gap [-]."""
         return float(np.interp(gap, self.laws.gap[:, 0], self.separations, right=gap))
+
+
+def change_together(
+    deformation: Deformation, lacking: Array, stiffness: Array
+) -> tuple[Array, Array]:
+    """Return the change m of asperities that carry alone by their law, and its film K m.
+
+    A Newton step of  q + m = P_a(H + K m):  (1 - P_a' K) m = P_a(H) - q.
+
+    Parameters
+    ----------
+    deformation : Deformation
+        K.
+    lacking, stiffness : array of ``grid.shape``
+        P_a(H) - q and -P_a', zero where asperities do not carry alone [-].
+    """
+    moved = np.empty_like(lacking)
+
+    def applied(change: Array) -> Array:
+        deformation.deflect(change.reshape(moved.shape), moved)
+        return change + (stiffness * moved).ravel()
+
+    system = LinearOperator((moved.size, moved.size), matvec=applied, dtype=float)
+    found, _ = gmres(
+        system, lacking.ravel(), rtol=LEFT_OF_LACKING, restart=MOST_TOGETHER, maxiter=1
+    )
+    step = found.reshape(moved.shape)
+    deformation.deflect(step, moved)
+    return step, moved
 
 
 def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs
 
-from tehl.base.typing import Array, BoolArray, IntArray
+from tehl.base.typing import Array, IntArray
 from tehl.kernels.coarsest import (
     SLOTS,
     Coarse,
@@ -19,20 +19,15 @@ from tehl.operators.influence import matrix_of
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.linearised import linearised, residual_of
 from tehl.solver.cycle.newton import one_thread
-from tehl.solver.judging.film_summary import central_value
 
 MOST_CARRIED, MOST_HALVINGS = 1.5, 8
 """Pressure of the asperities beyond which a Newton step is halved, over that of Hertz, which they
 exceed by little even when dry; and most times."""
-LONGEST_STEP, LONGEST_CARRIED = 0.3, 0.3
-"""Largest change of pressure in a Newton step, in Hertz pressures, and largest change of that of
-asperities by their slope: they grow as an exponential of the film. Without it steps of a line with
-0.85 of the load on them do not converge (M = 29, L = 0.5); with 0.1 to 0.3 they do."""
+LONGEST_STEP = 0.3
+"""Largest change of pressure in a Newton step, in Hertz pressures."""
 CONTRACTION, SMALL_REPEATED, MOST_REPEATED = 0.5, 0.15, 4
 """Steps with the matrix of an earlier state: over the one before, above which that is too far away,
 over the first one, below which they have converged, and most after the first."""
-MOST_EMPTIED = 10
-"""Most systems of a step in which nodes between asperities lose their oil."""
 LEAST_KEPT_NODES = 1000
 """Nodes from which a time step may use the matrix of an earlier one: on 65 x 33 nodes of a roller
 it takes 0.15 s, half of a step on 257 x 129 nodes; on 17 x 17 nodes of a circle 1 ms."""
@@ -80,10 +75,19 @@ class CoarsestSolver:
         rest (simplified Newton method: Deuflhard 2011, section 2.1).
         """
         before = self.level.state()
-        if self.last is not None and self._converges(self.last):
+        if self.last is not None and self._is_wet_as(self.last) and self._converges(self.last):
             return
         self.level.set_state(*before)
         self.newton_step()
+
+    def _is_wet_as(self, known: Factored) -> bool:
+        """Whether no node that has oil now has a row of asperities alone: its error would stay."""
+        if not self.level.share.together:
+            return True
+        free, film = known.work.free[: known.size], self.level.film
+        alone = free[known.work.dry[free] > 0]
+        wet = (film.p != 0.0) & (self.level.smoother.frozen == 0)
+        return not wet.ravel()[alone].any()
 
     def _converges(self, known: Factored) -> bool:
         """Take steps with the matrix of an earlier state; return whether they converge."""
@@ -99,9 +103,10 @@ class CoarsestSolver:
 
     def newton_step(self) -> float:
         """Perform a Newton step of limited length in place; return the largest change."""
-        self.level.update()
-        self.last, emptied = self._filled(linearised(self.level))
-        return self._take(self.last, emptied)
+        level = self.level
+        level.update()
+        self.last = self._factored(linearised(level), self._system())
+        return self._take(self.last)
 
     @property
     def keeps_matrix(self) -> bool:
@@ -157,7 +162,6 @@ class CoarsestSolver:
             * (1.0 if answer is None else answer.lift.ravel()),
             missing=level.missing(),
             yielding=0.0 if answer is None else answer.stiffness,
-            lowest=0.0,
             nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
         )
 
@@ -185,68 +189,23 @@ class CoarsestSolver:
         work = work._replace(matrix=np.empty((0, 0)))
         return Factored(state, work, count, factors, pivots, _packed(state, work.free[:count]))
 
-    def _filled(self, state: Coarse) -> tuple[Factored, BoolArray]:
-        """Return the linearised system of a state, and the nodes that its step empties of oil.
-
-        There asperities alone carry: clipped after the step, the oil of these nodes would leave
-        them no part of the load, and at the end of the film steps would not converge. So nodes
-        lose their oil until none of the others has a negative pressure (policy iteration).
-        """
-        system, emptied = self._system(), np.zeros(self.level.film.p.size, bool)
-        lacking, known = self._lacking(), self._factored(state, system)
-        for _ in range(0 if lacking is None else MOST_EMPTIED):
-            free = known.work.free[: known.size]
-            found = self._solved(known, system, lacking, emptied)
-            step, moved = self._moved(known, found, system.lift)
-            oil = (state.p + step + state.stiffness * moved)[free]
-            more = free[(oil < 0.0) & (known.work.dry[free] == 0)]
-            if more.size == 0:
-                break
-            emptied[more] = True
-            known = self._factored(state, system._replace(frozen=system.frozen | emptied))
-        return known, emptied
-
-    def _solved(
-        self,
-        known: Factored,
-        system: CoarseSystem,
-        lacking: Array | None,
-        emptied: BoolArray | None,
-    ) -> Array:
-        """Return the solution of a linearised system: changes of free nodes and rigid motions."""
-        free, oil = known.work.free[: known.size], self.level.film.p.ravel()
-        alone = np.zeros(oil.size) if lacking is None else lacking.ravel()
-        if emptied is not None:
-            alone = alone - np.where(emptied, oil, 0.0)
-        dry = known.work.dry[free] > 0
-        rhs = np.append(np.where(dry, alone[free], system.residual[free]), system.missing)
-        found, _ = dgetrs(known.factors, known.pivots, rhs, trans=1)
-        return np.asarray(found)
-
-    def _take(self, known: Factored, emptied: BoolArray | None = None) -> float:
+    def _take(self, known: Factored) -> float:
         """Take a step of limited length by a linearised system; return the largest change.
 
-        Of the pressures [-], and of rigid motions over the largest, where that is above one. The
-        oil pressure of nodes that the step ``emptied`` passes to the asperities.
+        Of the pressures [-], and of rigid motions over the largest, where that is above one.
         """
         level, film = self.level, self.level.film
         level.update()
-        system, work = self._system(), known.work
+        system, work, free = self._system(), known.work, known.work.free[: known.size]
         before, rigid = level.pressure.copy(), level.rigid.copy()
         carried = film.p.copy(), film.asperity.copy()
         used = known.size + rigid.size
-        lacking, longest = self._lacking(), LONGEST_STEP
-        found = self._solved(known, system, lacking, emptied)
-        if lacking is not None:
-            system = system._replace(lowest=level.share.lowest)
-            longest = self._longest(known, found, system.lift)
-        work.rhs[:used] = found
+        work.rhs[: known.size] = np.where(work.dry[free], 0.0, system.residual[free])
+        work.rhs[known.size : used] = system.missing
+        step, _ = dgetrs(known.factors, known.pivots, work.rhs[:used], trans=1)
+        work.rhs[:used] = step
         state = known.state._replace(p=film.p.ravel(), asperity=film.asperity.ravel())
-        part = take_step(state, system, work, known.size, longest)
-        if emptied is not None and emptied.any():
-            at = emptied.reshape(film.p.shape)
-            film.p[at] -= part * carried[0][at]
-            film.asperity[at] += part * carried[0][at]
+        part = take_step(state, system, work, known.size, LONGEST_STEP)
         if level.grid.wraps:
             film.p[-1] = film.p[0]
             if film.asperity.size:
@@ -256,31 +215,12 @@ class CoarsestSolver:
         if level.equations.solids.asperities is not None:
             self._shorten(carried, change)
         moved = np.abs(level.rigid - rigid).max() / max(1.0, np.abs(level.rigid).max())
-        return max(float(np.abs(level.pressure - before).max()), float(moved))
-
-    def _lacking(self) -> Array | None:
-        """Return what asperities lack of their pressure, (ny, nx); None where that is not used.
-
-        Along lines and rollers it is, if the film is thicker than the gap of a mesh width: on grids
-        that are coarser asperities take all load, and exact steps would lead there (M = 300; a
-        bearing, M = 74,000, with 0.003 of its film).
-        """
-        level = self.level
-        film, as_line = level.film.h, level.equations.groups.shape.as_line
-        resolved = as_line and central_value(level.grid, film) > level.grid.dx**2
-        return level.share.lacking(level) if resolved else None
-
-    def _moved(self, known: Factored, found: Array, lift: Array) -> tuple[Array, Array]:
-        """Return the changes of pressure and film by a solution, (n,) each."""
-        step = np.zeros(self.level.film.p.size)
-        step[known.work.free[: known.size]] = found[: known.size]
-        return step, self.influence @ step + lift.T @ found[known.size :]
-
-    def _longest(self, known: Factored, found: Array, lift: Array) -> float:
-        """Return the largest change of pressure that a step may take, as `LONGEST_STEP`."""
-        step, moved = self._moved(known, found, lift)
-        taken = np.abs(self.level.film.stiffness.ravel() * moved).max()
-        return min(LONGEST_STEP, LONGEST_CARRIED * np.abs(step).max() / max(taken, 1e-300))
+        largest = max(float(np.abs(level.pressure - before).max()), float(moved))
+        if not level.share.together:
+            return largest
+        level.update()  # a small change of both may be a large one of the oil between asperities
+        passed = level.equations.balances.integral(np.abs(film.p - carried[0]))
+        return max(largest, passed / level.sources.load)
 
     def _shorten(self, before: tuple[Array, Array], change: Array) -> None:
         """Halve a step until the asperities, steep as they are, carry no more than is likely."""

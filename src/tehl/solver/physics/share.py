@@ -74,6 +74,9 @@ class OilAlone:
     """Most that the smallest film may be over that of the oil alone, as a part of its error [-]."""
     stays = False
     """Whether the nodes that touch stay as they are: coarser grids of a cycle correct others."""
+    together = False
+    """Whether asperities that carry alone change together: along lines and rollers, whose
+    deflection reaches far."""
     reach = 0.0
     """Film of a smooth change of the pressure in the contact, over that change [-]."""
 
@@ -168,14 +171,6 @@ class OilAlone:
 
     def rubbing(self, level: Carried) -> tuple[Array, Array] | None:
         """Return the friction stress of the solids, and 1 where the oil is sheared, else 0 [-]."""
-        del level
-        return None
-
-    def lacking(self, level: Carried) -> Array | None:
-        """Return what asperities lack of their pressure at the present separation [-].
-
-        It is theirs alone at nodes without oil; None where no asperities follow a law there.
-        """
         del level
         return None
 

@@ -15,7 +15,7 @@ from tehl.kernels import summits, transfer
 from tehl.kernels.properties import Film
 from tehl.operators.deformation import Flattening
 from tehl.operators.dry import dry_motions, dry_pressure
-from tehl.operators.summits import AsperityTable
+from tehl.operators.summits import AsperityTable, change_together
 from tehl.operators.transfer import midpoints
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.judging.film_summary import central_value
@@ -34,6 +34,9 @@ DRY_STEPS, DRY_PART, DRY_ERROR, RIGID_HALVINGS = 100, 0.5, 1e-4, 40
 missing part of the load and the change of a pressure that end them: it is only a start. Halvings of
 the separation of asperities on bodies that do not yield."""
 
+LONGEST_TOGETHER, NEGLIGIBLE_LACKING = 0.3, 1e-12
+"""Largest change of asperities that carry alone by their slope, beyond which each node follows its
+law; and what they may lack without a step [-]."""
 MOST_TOUCH = 0.75
 """Full weighting of the fine nodes that touch from which on a coarse one does: it is inside of a
 patch, or on a straight rim. Patches of few nodes would be too stiff: with those at its own place,
@@ -58,6 +61,7 @@ class Summits(OilAlone):
         super().__init__(equations)
         self.table = table
         self.reach = FILM_PER_PRESSURE * max(1.0, self._pressed()[1])
+        self.together = equations.groups.shape.as_line
         self.kept = np.zeros(equations.grid.shape)  # what they carried in the injected state
 
     def extend(self, film: Film) -> Film:
@@ -70,8 +74,23 @@ class Summits(OilAlone):
         return film._replace(carried=np.ones(shape)) if self.table.slides else film
 
     def follow(self, level: Carried, reach: float) -> None:
-        """Evaluate the laws; the sum of both pressures stays."""
-        self.follow_at(level, reach, level.separation, level.smoother.frozen)
+        """Evaluate the laws; the sum of both pressures stays where there is oil."""
+        film, separation, frozen = level.film, level.separation, level.smoother.frozen
+        if reach < 0.0 or not self.together:
+            self.follow_at(level, reach, separation, frozen)
+            return
+        self.follow_at(level, np.inf, separation, frozen)
+        alone = (film.p == 0.0) | (frozen > 0)
+        lacking = np.zeros_like(separation)
+        lacking[alone] = self.table.carried(separation[alone]) - film.asperity[alone]
+        if np.abs(lacking).max() > NEGLIGIBLE_LACKING:  # not of NaN
+            stiffness = np.where(alone, film.stiffness, 0.0)
+            step, moved = change_together(self.equations.deformation, lacking, stiffness)
+            if float((stiffness * np.abs(moved)).max()) <= LONGEST_TOGETHER:
+                film.asperity[:] += step
+                separation[:] += moved
+                reach = np.inf
+            self.follow_at(level, reach, separation, frozen)
 
     def follow_at(self, level: Carried, reach: float, separation: Array, frozen: FlagArray) -> None:
         """Evaluate the laws at a separation; the oil of the ``frozen`` nodes stays as well."""
@@ -89,10 +108,6 @@ class Summits(OilAlone):
         """Return the friction stress of the asperities; the oil between them is sheared too."""
         film = level.film
         return self.table.friction * film.asperity, np.ones(film.p.shape)
-
-    def lacking(self, level: Carried) -> Array | None:
-        """Return what asperities lack of their pressure at the present separation [-]."""
-        return self.table.carried(level.separation) - level.film.asperity
 
     def widening(self, level: Carried) -> Array:
         """Return d eps/dH by the law of the channel."""
