@@ -6,6 +6,9 @@ import pytest
 import tehl
 from tehl.api.problem import case_from_tables
 from tehl.contact.options import Options
+from tehl.estimate.scaling import ScaledProblem
+from tehl.solver.cycle.ladder import ladder
+from tests.solver.runs import mixed_line, multigrid
 from tests.solver.test_roller import LOGARITHMIC, STANDARD, roller
 
 
@@ -65,10 +68,29 @@ def test_lines_crowd_where_oil_is_scarce():
     assert found.film_scaled.minimum == pytest.approx(0.0084, rel=found.errors.minimum)
 
 
+def mixed_roller():
+    """Return a roller between asperities."""
+    law = {"model": "greenwood-tripp", "rms": "0.3 um", "summit_radius": "20 um"}
+    return roller(profile=LOGARITHMIC, asperities={**law, "summit_density": 1e10})
+
+
+def test_asperities_of_rollers_change_one_by_one_if_they_do_not_converge_together():
+    """At sharp ends films flip from cycle to cycle (M = 65)."""
+    mixed, options = mixed_roller(), Options(points=(65, 33))
+    first, second, *_ = ladder(ScaledProblem.of(mixed), options, rough=False)
+    level = multigrid(mixed, options).hierarchy.levels[-1]
+    for strategy in (first, second):
+        level.set_relaxation(strategy.relaxation)
+        assert level.share.moves_together(level) == (strategy is first)
+    assert second.description == "the fast smoother, asperities one by one"
+    line = mixed_line()
+    strategies = ladder(ScaledProblem.of(line), options, rough=False)
+    assert all(one.relaxation.together for one in strategies)
+
+
 def test_lines_crowd_beside_asperities_too():
     """On uniform lines the minimum is 0.0420 on 129 x 65 and on 257 x 129 nodes."""
-    law = {"model": "greenwood-tripp", "rms": "0.3 um", "summit_radius": "20 um"}
-    mixed = roller(profile=LOGARITHMIC, asperities={**law, "summit_density": 1e10})
+    mixed = mixed_roller()
     found = tehl.solve(mixed, Options(points=(129, 65)))
     assert found.film_scaled.minimum == pytest.approx(0.0377, rel=0.01)  # 257 x 129 nodes
     assert found.load_sharing.share == pytest.approx(0.0496, rel=0.01)

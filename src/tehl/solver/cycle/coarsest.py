@@ -82,7 +82,7 @@ class CoarsestSolver:
 
     def _is_wet_as(self, known: Factored) -> bool:
         """Whether no node that has oil now has a row of asperities alone: its error would stay."""
-        if not self.level.share.together:
+        if not self.level.share.moves_together(self.level):
             return True
         free, film = known.work.free[: known.size], self.level.film
         alone = free[known.work.dry[free] > 0]
@@ -216,7 +216,7 @@ class CoarsestSolver:
             self._shorten(carried, change)
         moved = np.abs(level.rigid - rigid).max() / max(1.0, np.abs(level.rigid).max())
         largest = max(float(np.abs(level.pressure - before).max()), float(moved))
-        if not level.share.together:
+        if not level.share.moves_together(level):
             return largest
         level.update()  # a small change of both may be a large one of the oil between asperities
         passed = level.equations.balances.integral(np.abs(film.p - carried[0]))

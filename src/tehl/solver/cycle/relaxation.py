@@ -44,6 +44,8 @@ class Relaxation:
     """Part of the correction of the coarser grid that is added, and largest change of a pressure by
     it, over that pressure: less than all between asperities, and at fronts that it does not
     resolve."""
+    together: bool = True
+    """Asperities of lines and rollers that carry alone change together, not each by itself."""
     rate: float = 0.0
     """Least convergence rate per cycle that iteration errors assume [-], as small steps hide slow
     changes: without it, 14 of 31 bearings (M = 20,000 to 185,000) err by twice to a hundred times
@@ -51,6 +53,7 @@ class Relaxation:
 
 
 FAST = Relaxation(name="fast", threshold=1.0, point=0.7, dipole=0.6)
+APART = replace(FAST, together=False)
 BROAD = Relaxation(name="broad", threshold=10.0, point=0.7, dipole=0.6)
 ROBUST = Relaxation(name="robust", threshold=1.0, point=0.4, dipole=0.3, lines=4, stiff=True)
 STEEP = Relaxation(name="steep", threshold=1.0, point=0.25, dipole=0.3, stiff=True, rate=0.5)

@@ -74,9 +74,6 @@ class OilAlone:
     """Most that the smallest film may be over that of the oil alone, as a part of its error [-]."""
     stays = False
     """Whether the nodes that touch stay as they are: coarser grids of a cycle correct others."""
-    together = False
-    """Whether asperities that carry alone change together: along lines and rollers, whose
-    deflection reaches far."""
     reach = 0.0
     """Film of a smooth change of the pressure in the contact, over that change [-]."""
 
@@ -100,6 +97,11 @@ class OilAlone:
         """
         del reach
         level.update_properties()
+
+    def moves_together(self, level: Carried) -> bool:
+        """Return whether asperities that carry alone change together, not each by itself."""
+        del level
+        return False
 
     def gap(self, level: Carried) -> Array:
         """Return the separation that coarser grids take, ``grid.shape`` [-]."""

@@ -61,7 +61,6 @@ class Summits(OilAlone):
         super().__init__(equations)
         self.table = table
         self.reach = FILM_PER_PRESSURE * max(1.0, self._pressed()[1])
-        self.together = equations.groups.shape.as_line
         self.kept = np.zeros(equations.grid.shape)  # what they carried in the injected state
 
     def extend(self, film: Film) -> Film:
@@ -76,7 +75,7 @@ class Summits(OilAlone):
     def follow(self, level: Carried, reach: float) -> None:
         """Evaluate the laws; the sum of both pressures stays where there is oil."""
         film, separation, frozen = level.film, level.separation, level.smoother.frozen
-        if reach < 0.0 or not self.together:
+        if reach < 0.0 or not self.moves_together(level):
             self.follow_at(level, reach, separation, frozen)
             return
         self.follow_at(level, np.inf, separation, frozen)
@@ -91,6 +90,10 @@ class Summits(OilAlone):
                 separation[:] += moved
                 reach = np.inf
             self.follow_at(level, reach, separation, frozen)
+
+    def moves_together(self, level: Carried) -> bool:
+        """Return whether they do: along lines and rollers, whose deflection reaches far."""
+        return self.equations.groups.shape.as_line and level.smoother.relaxation.together
 
     def follow_at(self, level: Carried, reach: float, separation: Array, frozen: FlagArray) -> None:
         """Evaluate the laws at a separation; the oil of the ``frozen`` nodes stays as well."""
