@@ -449,6 +449,18 @@ def test_cycles_recede_where_the_residual_grows_twice_in_succession_or_in_all(
     assert recedes(trace) is found
 
 
+@pytest.mark.parametrize("gives_up", [True, False])
+def test_a_strategy_that_gives_up_does_not_wait_until_the_oil_balances(gives_up: bool) -> None:
+    trace = GridTrace()
+    for number, residual in enumerate((1.0, 2.0, 3.0), 1):
+        trace.add(report(number, residual))
+    iteration = Mock(spec=GridIteration)
+    iteration.strategy = Mock(patience=1, gives_up=gives_up)
+    iteration.balance = Mock(is_settled=False)
+    assert GridIteration._is_done(iteration, trace, finest=True) is gives_up
+    assert not GridIteration._is_done(iteration, trace, finest=False)
+
+
 @pytest.mark.parametrize(
     ("left", "least", "extrapolated"),
     [(1e-3, 0.008, True), (0.04, 0.008, False), (1e-3, 0.01, False)],
