@@ -17,12 +17,14 @@ from tehl.cli.text import as_text
 from tehl.contact.options import Options
 from tehl.contact.summits import channel, gaussian_integral, mean_gap, shear_flow
 from tehl.estimate.film_formulas import expected_film
+from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.io.store import save
 from tehl.kernels import properties, reynolds, summits
+from tehl.operators.deformation import DirectDeformation
 from tehl.operators.influence import dense_matrix
 from tehl.operators.line_source import line_rise
-from tehl.operators.summits import asperity_table
+from tehl.operators.summits import LEFT_OF_LACKING, asperity_table, change_together
 from tehl.operators.trail import Trail
 from tehl.operators.transient_film import Rubbing
 from tehl.plots import asperity_map, pictures_of
@@ -565,6 +567,21 @@ def test_asperities_that_keep_their_pressure_take_no_more_than_that_of_the_oil()
     assert film.p[emptied].max() == 0.0
     left = wet & ~emptied
     assert film.asperity[left] == pytest.approx(laws.carried(separation)[left], abs=1e-12)
+
+
+def test_asperities_that_change_together_solve_their_linear_equations():
+    scaled = ScaledProblem.of(mixed_line())
+    grid = finest_grid(scaled, Options(points=(65, 1)))
+    deflection = DirectDeformation(grid, scaled.groups)
+    rng, alone = np.random.default_rng(6), np.abs(grid.x) < 0.8
+    lacking, stiffness = np.zeros(grid.shape), np.zeros(grid.shape)
+    lacking[0, alone], stiffness[0, alone] = rng.uniform(0.0, 60.0, (2, alone.sum()))
+    step, moved = change_together(deflection, lacking, stiffness)
+    assert moved[0] == pytest.approx(deflection.matrix @ step[0], abs=1e-12 * np.abs(step).max())
+    assert not step[0, ~alone].any()
+    left = lacking - step - stiffness * moved
+    # as much as GMRES may leave
+    assert np.linalg.norm(left) <= LEFT_OF_LACKING * np.linalg.norm(lacking)
 
 
 @pytest.mark.slow

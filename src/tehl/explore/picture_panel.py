@@ -199,7 +199,7 @@ class PicturePanel:
         self._draw_beside(view, present, other)
 
     def _draw_beside(self, view: str, present: Shown, other: Shown) -> None:
-        """Draw two states side by side, above their centre lines along x."""
+        """Draw two states side by side, above their centre lines along x; all sizes in pixels."""
         (width, height), limits = self.size, self.tab.scales.limits
         wide = width > 560.0
         bar = 70.0 if view in ("film", "pressure") else 0.0

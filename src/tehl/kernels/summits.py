@@ -122,6 +122,7 @@ def _share(
     for i in range(film.p.shape[1]):
         missing = film.eps[j, i] - film.asperity[j, i]
         if reach >= 0.0 and film.p[j, i] != 0.0 and frozen[j, i] == 0:
+            # those that change together take no more than the oil had; else the load would grow
             missing = min(missing, film.p[j, i]) if reach == np.inf else missing
             film.p[j, i] = max(film.p[j, i] - missing, 0.0)
         elif reach == np.inf:

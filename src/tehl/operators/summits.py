@@ -33,8 +33,8 @@ LEAST_CARRIED = 0.01
 """Least oil that is carried over that of the gap: pools of a rough surface at rest carry none."""
 
 LEFT_OF_LACKING, MOST_TOGETHER = 0.3, 10
-"""Part of what asperities lack that the solution of their linear system may leave, as the next
-evaluation goes on from there, and most iterations of GMRES."""
+"""Part of what asperities lack that the solution of their linear system may leave, and most
+iterations of GMRES. The next evaluation goes on from there: with 0.1 cycles are not fewer."""
 
 Tables = dict[str, Array]
 """Laws over the gap over sigma, by the names of `AsperityLaws`."""

@@ -129,14 +129,14 @@ def patch_curves(z: Array, pixel: tuple[float, float]) -> PatchCurves:
     stride = max(1, -(-max(z.shape) // FLOW))
     rows: list[tuple[float, ...]] = []
     flows: list[tuple[float, ...]] = []
-    pressure, start = 3e-5 * slope, None
+    pressure, start = 3e-5 * slope, None  # over E*: of the first load
     while True:
         try:
             found = pressed(z, pixel, pressure, start)
         except ArithmeticError as error:
             raise InputError(f"asperities.map: {error}; a lambda_s removes spikes") from None
         gap = found.mean_gap / sigma
-        if gap < 0.05:
+        if gap < 0.05:  # of Sq: that was the last load
             break
         number = found.spots / (z.size * pixel[0] * pixel[1])
         if len(rows) % 3 == 0:  # the flow is smoother and takes six times as long

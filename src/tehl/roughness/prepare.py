@@ -67,6 +67,7 @@ def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
     """
     there = np.isfinite(values)
     whole = _nearest(values, ~there)
+    # of windows of 5 x 5 points; the shape explains what these medians span in windows of 7 x 7
     median = ndimage.median_filter(whole, 5, mode="nearest")
     explained = ndimage.maximum_filter(median, 7, mode="nearest")
     explained -= ndimage.minimum_filter(median, 7, mode="nearest")

@@ -109,6 +109,7 @@ class Spectral(TileModel):
     @property
     def lattice(self) -> tuple[tuple[int, int], tuple[float, float]]:
         """Return points along u and v, and pixels [m], of the lattice."""
+        # four points per correlation length or cut-off
         along, across = (length / self._band / 4 for length in self._lengths)
         points = _LATTICE_POINTS if self._band <= _WIDE_RANGE else 2 * _LATTICE_POINTS
         return (points, points), (along, across)
@@ -316,7 +317,7 @@ def _with_moments(heights: Array, skewness: float, kurtosis: float) -> Array:
         for start in ((0.0, 1.0, 3.0) if skewness else (0.0,))
     ]
     best = min(fits, key=lambda fit: float(fit.cost))
-    if not np.abs(best.fun).max() < 1e-3:
+    if not np.abs(best.fun).max() < 1e-3:  # of skewness and kurtosis [-]
         raise InputError(
             f"kurtosis = {kurtosis:g} with skewness = {skewness:g} cannot be made of these heights"
         )

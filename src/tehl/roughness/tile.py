@@ -220,7 +220,10 @@ def _on_a_mesh(coefficients: Array, rows: Support, columns: Support) -> Array:
 
 
 def _is_roomy(shape: tuple[int, ...], rim: tuple[int, int]) -> bool:
-    """Return whether a rim of these widths in points makes the heights many times larger."""
+    """Return whether a rim of these widths makes a tile too large, which is then coarsened.
+
+    Its points are then beyond four times those without rim, and beyond four millions.
+    """
     ny, nx = shape
     return (ny + 2 * rim[1]) * (nx + 2 * rim[0]) > max(4 * ny * nx, 4_000_000)
 

@@ -135,10 +135,10 @@ class _Region:
             distance = np.hypot((along - vector[0]) / bins[0], (across - vector[1]) / bins[1])
             return np.asarray(distance >= waves)
 
-        allowed = apart((0.0, 0.0), 1.5)
+        allowed = apart((0.0, 0.0), 1.5)  # the fewest waves over the region that are searched
         for wave in found:
             for sign in (1.0, -1.0):
-                allowed &= apart((sign * wave.along, sign * wave.across), 2.0)
+                allowed &= apart((sign * wave.along, sign * wave.across), 2.0)  # of peaks
         spectrum = np.where(allowed, spectrum, 0.0)
         row, column = np.unravel_index(np.argmax(spectrum), spectrum.shape)
         if not spectrum[row, column] > 0:

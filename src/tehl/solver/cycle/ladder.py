@@ -124,8 +124,8 @@ BETWEEN_ROUGH = (
     Strategy(relaxation=BESIDE_NEWTON, continuation=Continuation(points=5.0), newton=True),
 )
 EACH_ALONE = Strategy(relaxation=APART)
-"""Tried next on rollers between asperities: at sharp ends films flip where these change together
-(M = 65), but most others of 25 take fewer cycles, and two converge by nothing else."""
+"""Tried next on rollers between asperities. Where these change together, films at sharp ends flip
+(two rollers, M = 56 and 65); where they do not, others stall (M = 8, L = 8.7)."""
 HELD_APART, HELD_LOAD = Strategy(relaxation=FAST), 0.5
 """Tried first between rough surfaces where asperities below the mesh carry more than that part of
 the load, by formulas: they hold the surfaces apart, so the film between heights is smooth. Cycles

@@ -36,7 +36,8 @@ the separation of asperities on bodies that do not yield."""
 
 LONGEST_TOGETHER, NEGLIGIBLE_LACKING = 0.3, 1e-12
 """Largest change of asperities that carry alone by their slope, beyond which each node follows its
-law; and what they may lack without a step [-]."""
+law: with 0.1 to 1 a line (M = 29) takes the same cycles. And what they may lack without a step,
+which is rounding [-]."""
 MOST_TOUCH = 0.75
 """Full weighting of the fine nodes that touch from which on a coarse one does: it is inside of a
 patch, or on a straight rim. Patches of few nodes would be too stiff: with those at its own place,
