@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tehl.kernels import properties, relaxation, reynolds
-from tehl.kernels.faces import CLOSED, Stencil
+from tehl.kernels.faces import CLOSED, IN_TIME, Stencil
 from tehl.kernels.lanes import LANES
 from tehl.kernels.relaxation import LineRelaxation
 from tests.kernels.interpreted import interpreted
@@ -120,8 +120,19 @@ def test_lines_that_are_far_apart_leave_each_other_their_kind_and_their_cavities
     expected[3] = 0
     np.testing.assert_array_equal(setting.kind, expected)
     setting.delta[2, 5] = -1.0
-    python.add_dipoles(film, setting, stencil.mirror)
+    python.add_dipoles(film, setting, stencil)
     assert film.p[3, 5] == 0.0  # a cavity is not filled from the line beside
+
+
+@pytest.mark.parametrize("conserves", [0, IN_TIME])
+def test_dipoles_do_not_fill_partly_filled_nodes_of_the_line_beside_in_a_time_step(conserves):
+    shape = (7, 9)
+    film, stencil = random_film(shape), stencil_of(mirror=0)._replace(conserves=conserves)
+    film.p[3, 3:] = 0.0
+    setting = relaxation_of(shape, xi=1.0)
+    setting.delta[2, 5] = -1.0
+    python.add_dipoles(film, setting, stencil)
+    assert bool(film.p[3, 5] == 0.0) is (conserves == IN_TIME)
 
 
 @MIRROR
@@ -221,7 +232,7 @@ def test_lines_relaxed_side_by_side_equal_lines_relaxed_one_by_one(shape, mirror
     for colour in range(2):
         for j in range(first + colour, shape[0] - 1, 2):
             python.relax_batch(one, stencil, rhs, setting, (j, 1))
-    python.add_dipoles(one, setting, mirror)
+    python.add_dipoles(one, setting, stencil)
     np.testing.assert_allclose(film.p, one.p, rtol=1e-10, atol=1e-12)
 
 

@@ -22,7 +22,7 @@ import numpy as np
 
 from tehl.base.typing import Array, FlagArray, IntArray, Records
 from tehl.kernels.compiled import helper, kernel
-from tehl.kernels.faces import STEADILY, Stencil, both_x, both_y, slope_y
+from tehl.kernels.faces import IN_TIME, STEADILY, Stencil, both_x, both_y, slope_y
 from tehl.kernels.lanes import LANES, any_of, where
 from tehl.kernels.properties import Film, FlowTable
 from tehl.kernels.raw import lanes, raw
@@ -674,13 +674,18 @@ def relax_lines(film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxa
         for j in range(first + colour, inner_end(ny, stencil.mirror), 2 * LANES):
             count = min(LANES, (inner_end(ny, stencil.mirror) + 1 - j) // 2)
             relax_batch(film, stencil, rhs, relaxation, (j, count))
-    add_dipoles(film, relaxation, stencil.mirror)
+    add_dipoles(film, relaxation, stencil)
     join_ends(film.p, stencil.mirror)
 
 
 @helper
-def add_dipoles(film: Film, relaxation: LineRelaxation, mirror: int) -> None:
-    """Add the stored dipoles to ``p`` and clip at zero unless asperities carry."""
+def add_dipoles(film: Film, relaxation: LineRelaxation, stencil: Stencil) -> None:
+    """Add the stored dipoles to ``p`` and clip at zero unless asperities carry.
+
+    Where lines are apart, and in a time step that conserves oil, nodes without pressure take
+    nothing from other lines: the least pressure fills the gap, and cycles take it back.
+    """
+    mirror, alone = stencil.mirror, relaxation.apart or stencil.conserves == IN_TIME
     p, delta, ends, (ny, nx) = film.p, relaxation.delta, relaxation.ends, film.p.shape
     parts = relaxation.shapes.parts
     touches = film.stiffness.shape[0] > 0
@@ -691,7 +696,7 @@ def add_dipoles(film: Film, relaxation: LineRelaxation, mirror: int) -> None:
         above = parts[colour, FROM_NORTH, slot]
         for i in range(1, min(end + 1, nx - 1)):
             around = along * (delta[j, i - 1] + delta[j, i + 1])
-            if not relaxation.apart or p[j, i] != 0.0:
+            if not alone or p[j, i] != 0.0:
                 around += below * delta[south, i] + above * delta[north, i]
             changed = p[j, i] + delta[j, i] - around
             p[j, i] = changed if touches else max(changed, 0.0)
