@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from tehl.contact.options import ROLLER_ENDS, Domain
+from tehl.estimate.grid import Grid
 from tehl.estimate.ways import Way, steady_way, way_of
-from tehl.operators.carrying import Carrier
+from tehl.operators.carrying import Carrier, divergence_of_full, slope_across
 
 WAY = steady_way((1.0, 0.3), 0.7, 0.4)
 
@@ -56,3 +58,31 @@ def test_nothing_enters_an_empty_domain():
     assert (found[:, :3] == 0.0).all()
     np.testing.assert_allclose(found[:, 3:], 1.0)
     np.testing.assert_allclose(carrier.matrix(Way(0.25, 0.0)) @ ones, 1.0)
+
+
+@pytest.mark.parametrize("kind", ["point", "wraps", "crowds", "line"])
+def test_full_nodes_pass_oil_to_full_nodes_alone(kind):
+    sides = ROLLER_ENDS if kind == "crowds" else (-1.5, 1.5)
+    grid = Grid(
+        nx=33,
+        ny=1 if kind == "line" else 25,
+        domain=Domain(x=(-2.0, 1.5), y=sides),
+        mirror=False,
+        wraps=kind == "wraps",
+        crowding=1.5 if kind == "crowds" else 0.0,
+    )
+    rng = np.random.default_rng(3)
+    along, across = rng.standard_normal((2, *grid.shape))
+    full = rng.random(grid.shape) < 0.7
+    full[:, [0, -1]] = False
+    if grid.wraps:  # its last row is the first one
+        across[-1], along[-1], full[-1] = across[0], along[0], full[0]
+    found = divergence_of_full((along, across), grid, 1.7, full)
+    assert not found[~full].any()
+    assert np.abs(grid.widths @ found).sum() > 1.0  # along x it is passed on
+    assert (grid.widths @ found).sum() == pytest.approx(0.0, abs=1e-11)
+    everywhere = divergence_of_full((along, across), grid, 1.7, np.full(grid.shape, True))
+    usual = np.gradient(along, grid.dx, axis=1) + slope_across(across, grid, 1.7)
+    if kind != "crowds":
+        inside = (slice(None) if kind != "point" else slice(1, -1), slice(1, -1))
+        np.testing.assert_allclose(everywhere[inside], usual[inside], atol=1e-12)

@@ -164,6 +164,18 @@ def test_oil_that_thins_in_shear_is_conserved_through_every_section():
     assert found.supplied.balance < 1e-6
 
 
+def test_oil_that_sliding_carries_aside_is_conserved_through_every_section():
+    """Beneath a hot surface that slides across; oil from cavities would add 0.4 % of the flux."""
+    tables = ball_tables(supply={"layer": "0.25 um"}, thermal={})
+    tables["contact"] |= {"load": "60 N", "entrainment_speed": "1 m/s", "slide_roll_ratio": 1.0}
+    tables["contact"]["sliding_angle"] = 1.2
+    tables["lubricant"] |= {"conductivity": "0.14 W/m/K", "heat_capacity": "2000 J/kg/K"}
+    tables["lubricant"]["viscosity"] |= {"gamma": 0.04}
+    tables |= {"surface_1": {"material": "glass"}, "surface_2": {"material": "steel"}}
+    found = solve(case_from_tables(tables)[0], Options(points=49))
+    assert found.supplied.balance < 5e-4
+
+
 def test_more_inlet_does_not_change_a_starved_film(film):
     options = film.options.model_copy(update={"domain": Domain(x=(-3.5, 1.5), y=(-1.9, 1.9))})
     scales = film.scales

@@ -114,6 +114,39 @@ def slope_across(field: Array, grid: Grid, stretch: float) -> Array:
     return np.asarray(np.gradient(field, y, axis=0))
 
 
+def divergence_of_full(
+    flux: tuple[Array, Array], grid: Grid, stretch: float, full: BoolArray
+) -> Array:
+    """Return the divergence of a flux that passes faces between full nodes alone, (ny, nx).
+
+    What full nodes pass on together is what they get, as partly filled ones pass on nothing else.
+
+    Parameters
+    ----------
+    flux : (Array, Array)
+        Nodal values along x and y, (ny, nx).
+    grid, stretch : Grid, float
+        Nodes of a contact that has no symmetry line, and kappa = a_y/a_x.
+    full : Array
+        Which nodes are full of oil, (ny, nx).
+    """
+    (along, across), filled = flux, full.astype(float)
+    ends = np.zeros((grid.shape[0], 1))
+    faces = 0.5 * filled[:, 1:] * filled[:, :-1] * (along[:, 1:] + along[:, :-1])
+    found = np.diff(np.concatenate([ends, faces, ends], axis=1), axis=1) / grid.dx
+    if grid.ny == 1:
+        return np.asarray(found)
+    cells = np.full(grid.ny, grid.dy) if grid.wraps else np.diff(grid.faces)
+    beyond = np.zeros((1, grid.nx))
+    filled, across = (
+        np.concatenate([*sides[:1], one, *sides[1:]])
+        for one in (filled, across)
+        for sides in [grid.beyond(one, 1) if grid.wraps else (beyond, beyond)]
+    )
+    faces = 0.5 * filled[1:] * filled[:-1] * (across[1:] + across[:-1])
+    return np.asarray(found + np.diff(faces, axis=0) / (stretch * cells)[:, None])
+
+
 def _cubic(nodes: Array, places: Array) -> tuple[Array, Array, BoolArray]:
     """Return nodes and weights, (4, ...), at places, and which are outside.
 

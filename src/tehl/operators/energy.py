@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from tehl.base.typing import Array
+from tehl.base.typing import Array, BoolArray
 from tehl.estimate.entering import kept_part
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
@@ -14,7 +14,7 @@ from tehl.estimate.spin import sliding_field
 from tehl.estimate.ways import Way, steady_way
 from tehl.kernels.energy.march import sweep
 from tehl.kernels.energy.records import GHOSTS, Fields, Surfaces, Terms, scratch
-from tehl.operators.carrying import Carrier, slope_across
+from tehl.operators.carrying import Carrier, divergence_of_full, slope_across
 from tehl.operators.heated_film import (
     HeatedFilm,
     closeness,
@@ -173,14 +173,19 @@ class FilmState:
         else:
             self.transient.rub(self.solids.rubbing)
 
-    def drift(self) -> Array | None:
+    def drift(self, full: BoolArray | None = None) -> Array | None:
         """Return the divergence of the oil that sliding carries beside the mean flow, (ny, nx).
 
         Viscosity that varies across the film lets one surface carry more than the other, along its
         own direction (docs/theory/thermal.md, sliding across the entrainment). None if all
         motion is along x: then the density of the wedge contains it.
+
+        Parameters
+        ----------
+        full : Array or None
+            Which nodes are full of oil, (ny, nx); None are all.
         """
-        terms, grid = self.model.terms, self.grid
+        terms, grid, stretch = self.model.terms, self.grid, self.film.scaled.groups.ellipticity
         if terms.plain:
             return None
         x, y = self.fields.x, self.fields.y[: grid.shape[0], None]
@@ -190,8 +195,10 @@ class FilmState:
         odd = (self.view("odd_density") * self.view("h")).T
         # the mean flow mean_x, mean_spin x carries the density with the part of slide_x
         along, across = (1.0 - mean_x) * slide_x * odd, (slide_y - mean_spin * x * slide_x) * odd
+        if full is not None:
+            return divergence_of_full((along, across), grid, stretch, full)
         found: Array = np.gradient(along, grid.dx, axis=1)
-        return found + slope_across(across, grid, self.film.scaled.groups.ellipticity)
+        return found + slope_across(across, grid, stretch)
 
     def lead(self) -> Array:
         """Return the flux by the motion of both surfaces less that of the mean density, over H.

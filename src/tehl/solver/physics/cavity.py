@@ -34,6 +34,9 @@ meniscus oscillate, as it follows these nodes."""
 BESIDE_CAVITIES = 2
 """Nodes around partly filled ones that relax with the conductance of the flow: one beyond each
 face, and one as they fill and empty."""
+MOST_TURNS = 4
+"""Times that a node becomes full, or partly filled, after the nodes keep their orders, for what
+sliding carries aside: where a film begins nodes would alternate with it."""
 
 
 class Wetted(Protocol):
@@ -74,7 +77,7 @@ class ZeroPressure:
     oscillates = 1.0
     """Factor on the iteration error of the film that is always accepted [-]."""
     keeps_orders = False
-    """Whether the nodes that pass on oil with second order stay as they are."""
+    """Whether the nodes that pass on oil with second order stay, and `full` ones soon do."""
 
     def extend(self, film: Film) -> Film:
         """Return the fields of a film with those that the cavity needs."""
@@ -89,6 +92,11 @@ class ZeroPressure:
     def held(self, level: Wetted) -> Array:
         """Return the oil at each node after a time step, ``grid.shape`` [-]."""
         return np.asarray(level.film.rho * level.film.h)
+
+    def full(self, level: Wetted) -> BoolArray | None:
+        """Return which nodes are full of oil, ``grid.shape``; None where cavities do not matter."""
+        del level
+        return None
 
     def inject(self, fine: Wetted, coarse: Wetted) -> None:
         """Give a coarser grid the marks of the finer one, which decides where films begin."""
@@ -125,6 +133,7 @@ class Conserving(ZeroPressure):
 
     def __init__(self, layer: Array, *, spins: bool) -> None:
         self.layer, self.spins = layer, spins  # oil that enters each line, (ny,)
+        self.filled, self.turns = np.zeros((0, 0), bool), np.zeros((0, 0), np.uint8)
 
     def extend(self, film: Film) -> Film:
         """Return the film with the marks of partly filled nodes and of orders."""
@@ -161,6 +170,18 @@ class Conserving(ZeroPressure):
         missing[list(level.grid.edge_rows)] = 0.0
         missing[:, [0, -1]] = 0.0
         return np.where(film.p > 0.0, full, np.maximum(full - missing, 0.0))
+
+    def full(self, level: Wetted) -> BoolArray | None:
+        """Return which nodes are full of oil, as they turn a few times at most."""
+        if level.stencil.conserves != STEADILY:
+            return None
+        now = level.film.partial == 0
+        if not self.keeps_orders:
+            self.filled, self.turns = now, np.zeros(now.shape, np.uint8)
+        turns = (now != self.filled) & (self.turns < MOST_TURNS)
+        self.turns += turns
+        self.filled = np.where(turns, now, self.filled)
+        return self.filled
 
     def inject(self, fine: Wetted, coarse: Wetted) -> None:
         """Inject the marks of partly filled nodes."""

@@ -403,7 +403,7 @@ class Coupling:
             before = factors._replace(rest=np.zeros(shape), mobility=np.ones(shape))
             ones = np.ones(shape)
             before = before._replace(density=ones, stretch_x=ones, stretch_y=ones)
-        fine.sources.drift = None if self.carries_mean else state.drift()
+        fine.sources.drift = None if self.carries_mean else state.drift(fine.cavity.full(fine))
         if before is not None:
             bounded = fine.share.bounds_film
             largest = LARGEST_BOUNDED_STEP if bounded else LARGEST_LOG_STEP
