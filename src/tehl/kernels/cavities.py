@@ -75,12 +75,16 @@ def fill(film: Film, stencil: Stencil) -> None:
     """Fill the partly filled nodes with the oil that flows in, downstream from node to node.
 
     Without the flow from a film that is downstream along x, of which a part comes back at once.
-    Rows that move against x, and columns against y, the other way round; both lie beside each
-    other, so that a second time brings what has come from there.
+    Rows that move against x, and columns against y, the other way round; rows of both ways lie
+    beside each other, so that a second time brings what has come from there.
     """
     (ny, nx), rate = film.p.shape, stencil.w0 - stencil.w2
     first, last = _inner_rows(ny, stencil.mirror)
-    for back in (False, True, False, True):
+    reverses = False
+    for j in range(first, last + 1):
+        reverses = reverses or film.speed[j] < 0.0
+    for number in range(4 if reverses else 1):
+        back = number % 2 == 1
         for column in range(1, nx - 1):
             i = nx - 1 - column if back else column
             is_northward = film.drift[ny // 2, i] > 0.0
