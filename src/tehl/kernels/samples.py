@@ -21,7 +21,7 @@ from tehl.kernels import (
     summits,
     transfer,
 )
-from tehl.kernels.energy import march, records, trail
+from tehl.kernels.energy import march, records, streams, trail
 
 NUMBERS = {int: types.int64, float: types.float64, bool: types.boolean}
 
@@ -135,6 +135,9 @@ COUPLED = (
     _sample(reynolds.tangent_source, 0.4),
     _sample(properties.factors_of, 0.4),
     _sample(properties.heated_properties, 0.4),
+    _sample(
+        streams.follow, 0.4, **_axes(1, "weight", "rate"), **_axes(3, "rows", "weights", "carried")
+    ),
     _sample(trail.carry, 0.4, modes=4, fluxes=3, **_SURFACE),
 )
 """Of heated and shear-thinning films, besides."""

@@ -13,7 +13,8 @@ point carries is interpolated along y by cubics.
 import numpy as np
 
 from tehl.base.typing import Array
-from tehl.operators.line_source import averages, exponentials
+from tehl.kernels.energy import streams
+from tehl.operators.line_source import exponentials
 
 SLOWEST_ROW = 0.15
 """Least speed along x of a row over that at the centre: slower rows of a surface that spins lie
@@ -40,13 +41,13 @@ class StreamSource:
         middle = 0.5 * (x[1:] + x[:-1])[:, None]
         slopes = (slope + spin * middle) / row_speed(spin, y)
         back = y - 0.5 * self.spacing * slopes  # halfway from the last station
-        self.steps = 1.0 / row_speed(spin, back)
-        shift = self.spacing * (slope + spin * middle) * self.steps / (y[1] - y[0])
+        steps = 1.0 / row_speed(spin, back)
+        shift = self.spacing * (slope + spin * middle) * steps / (y[1] - y[0])
         place = np.arange(y.size) - shift
         first = np.floor(place).astype(int) - 1
         t = place - first - 1.0
-        self.nodes = np.clip(first[None] + np.arange(4)[:, None, None], 0, y.size - 1)
-        self.weights = np.array(
+        rows = np.clip(first[None] + np.arange(4)[:, None, None], 0, y.size - 1)
+        weights = np.array(
             [
                 -t * (t - 1.0) * (t - 2.0) / 6.0,
                 (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
@@ -54,25 +55,16 @@ class StreamSource:
                 (t + 1.0) * t * (t - 1.0) / 6.0,
             ]
         )
-        self.weight, self.rate = exponentials(x.size, min(1.0, float(self.steps.min())))
+        self.paths = streams.Paths(rows, weights, steps)
+        weight, rate = exponentials(x.size, min(1.0, float(steps.min())))
+        self.modes = streams.Modes(
+            weight, rate, np.empty((2, y.size, rate.size + 1)), np.empty((3, rate.size))
+        )
 
     def rise(self, flux: Array) -> Array:
         """Return the rise [K] under a flux, both (nx, ny)."""
-        rise = np.zeros_like(flux)
-        carried = np.zeros((self.rate.size + 1, flux.shape[1]))  # exponentials, and the flux
-        carried[-1] = flux[0]
-        rise[0] = 4.0 / 3.0 * flux[0]
-        for i in range(1, flux.shape[0]):
-            nodes, weights, step = self.nodes[:, i - 1], self.weights[:, i - 1], self.steps[i - 1]
-            carried = sum(w * carried[:, k] for w, k in zip(weights, nodes, strict=True))
-            decay, older = self.rate[:, None] * step, carried[-1]
-            modes = np.exp(-decay) * carried[:-1]
-            near = 4.0 / 3.0 * flux[i] + 2.0 / 3.0 * older
-            rise[i] = np.sqrt(step) * near + modes.sum(axis=0)
-            total, first = averages(decay)
-            taken = first * flux[i] + (total - first) * older
-            carried[:-1] = modes + self.weight[:, None] * step * taken
-            carried[-1] = flux[i]
+        rise = np.empty(flux.shape)
+        streams.follow(np.ascontiguousarray(flux), self.paths, self.modes, rise)
         return np.asarray(self.factor * np.sqrt(self.spacing) * rise)
 
 
