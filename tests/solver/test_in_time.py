@@ -26,6 +26,8 @@ from tehl.solver.monitor import SILENT
 from tehl.solver.transient.oil import Lead, Oil
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import Snapshot, pack, unpack
+from tehl.solver.transient.step import SETTLED_AFTER
+from tests.cases import moes_problem
 from tests.reference import moes_contact, read
 from tests.solver.test_line import line
 
@@ -201,6 +203,18 @@ def test_a_node_where_a_starved_film_begins_comes_to_rest_between_two_values():
     run = solve_transient(turning, Options(points=129, wedge_order=3))
     assert run.status.converged
     assert run.history.cycles.max() < 8
+
+
+def test_ridges_that_scarce_oil_leaves_after_reversal_come_to_rest():
+    """They took turns with the coarse grids, and no relaxation converged."""
+    case = moes_problem(4, 0.7)
+    unit = scales(case).half_width_x / scales(case).speed
+    course = {"duration": 8 * unit, "entrainment_speed": [[0.0, 1.0], [8 * unit, -0.6]]}
+    turning = with_tables(case, supply={"ratio": 0.5}, transient=course | {"frames": 0})
+    run = solve_transient(turning, Options(points=65))
+    assert run.status.converged
+    assert (run.history.cycles > SETTLED_AFTER).any()
+    assert (run.history.film_minimum > 0.0).all()
 
 
 @pytest.mark.slow

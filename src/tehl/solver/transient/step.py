@@ -35,6 +35,9 @@ from tehl.solver.transient.predictor import Predictor
 
 LARGEST_STEP_LOAD_ERROR = 1e-4
 """Load error accepted in a step."""
+SETTLED_AFTER, SETTLING_SWEEPS = 10, 4
+"""Cycles of a step after which sweeps over the finest grid follow each, and how many: ridges of oil
+a node wide, which reversal leaves between cavities, take turns with the coarse grids."""
 LARGEST_REST = 0.01
 """Residual accepted in a step where surfaces may touch, over the tolerance: single nodes that begin
 to touch change little."""
@@ -190,8 +193,7 @@ class Stepper:
             self.touching.begin()
         for number in range(1, times * self.transient.max_cycles + 1):
             before = level.pressure.copy()
-            self.method()
-            level.update()
+            self._cycle(number)
             np.subtract(level.pressure, before, out=before)
             change = float(max(before.max(), -before.min()))
             if not (is_warm and change <= self.transient.tolerance):
@@ -213,6 +215,13 @@ class Stepper:
                 before[:] = 0.0
             last = before
         raise StepError("stalled", change)
+
+    def _cycle(self, number: int) -> None:
+        """Perform one cycle of a step, and sweeps after it if there were many."""
+        self.method()
+        if number > SETTLED_AFTER and self.touching is None:
+            self.solver.finest.relax(SETTLING_SWEEPS)
+        self.solver.finest.update()
 
     def _lead(self) -> Array | None:
         """Return the flux that leads that of the mean motion, as `Lead` has it; None without."""
