@@ -19,6 +19,7 @@ from tehl.contact.summits import channel, gaussian_integral, mean_gap, shear_flo
 from tehl.estimate.film_formulas import expected_film
 from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem, scales
+from tehl.estimate.summits import shared_load
 from tehl.io.store import save
 from tehl.kernels import properties, reynolds, summits
 from tehl.operators.deformation import DirectDeformation
@@ -31,12 +32,14 @@ from tehl.plots import asperity_map, pictures_of
 from tehl.post.heat import work_error
 from tehl.report.page import report_text
 from tehl.result.solution import Status
+from tehl.solver.cycle.equations import MOSTLY_DRY
 from tehl.solver.cycle.methods import solve_coarsest
 from tehl.solver.cycle.start import from_dry_pressure
 from tehl.solver.judging.outputs import asperity_balance
 from tehl.solver.monitor import SILENT
 from tehl.solver.physics.cavity import oil_flow
 from tehl.solver.steady import try_strategies
+from tests.cases import moes_problem
 from tests.reference import CLOSE, heated_contact, moes_contact
 from tests.reference import touching_contact as rough
 from tests.solver.runs import mixed_line, multigrid
@@ -355,6 +358,21 @@ def test_a_starved_film_between_asperities_conserves_oil():
     assert through == pytest.approx(np.full_like(through, through[0]), rel=1e-9)
     film, asperity = attempt.run.finest.film.p, attempt.run.finest.film.asperity
     assert asperity[film == 0.0].max() > 1e-3  # some of them touch in the cavities
+
+
+def test_stiff_asperities_that_are_nearly_all_dry_converge_together():
+    """Each by itself they diverge from the film that all others move."""
+    smooth = moes_problem(224.0, 0.5)
+    film = expected_film(ScaledProblem.of(smooth))
+    radius = 55.0 * film
+    asperities = {"model": "greenwood-tripp", "rms": 1.79 * film, "summit_radius": radius}
+    asperities["summit_density"] = 3.5 / (1.79 * film * radius)
+    tables = smooth.model_dump(exclude_none=True) | {"asperities": asperities}
+    problem = starved(ContactProblem.model_validate(tables), 0.42)
+    assert shared_load(ScaledProblem.of(problem)).share > MOSTLY_DRY
+    found = solve(problem, Options(points=65))
+    assert len(found.history) < 10
+    assert found.load_sharing.share == pytest.approx(1.0, abs=0.02)
 
 
 def test_far_asperities_leave_a_starved_film_as_it_is():

@@ -14,6 +14,7 @@ from tehl.estimate.settled import raises_order
 from tehl.estimate.summits import shared_load
 from tehl.estimate.third_order import LEAST_SLENDER
 from tehl.solver.cycle.continuation import Continuation
+from tehl.solver.cycle.equations import move_together
 from tehl.solver.cycle.relaxation import (
     APART,
     BESIDE_NEWTON,
@@ -124,8 +125,8 @@ BETWEEN_ROUGH = (
     Strategy(relaxation=BESIDE_NEWTON, continuation=Continuation(points=5.0), newton=True),
 )
 EACH_ALONE = Strategy(relaxation=APART)
-"""Tried next on rollers between asperities. Where these change together, films at sharp ends flip
-(two rollers, M = 56 and 65); where they do not, others stall (M = 8, L = 8.7)."""
+"""Tried next between asperities that change together, but of lines. Where they do, films at sharp
+ends flip (two rollers, M = 56 and 65); where they do not, others stall (M = 8, L = 8.7)."""
 HELD_APART, HELD_LOAD = Strategy(relaxation=FAST), 0.5
 """Tried first between rough surfaces where asperities below the mesh carry more than that part of
 the load, by formulas: they hold the surfaces apart, so the film between heights is smooth. Cycles
@@ -226,8 +227,7 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
         return _between_rough(scaled, options)
     is_second = options.order < 3 and not raises_order(problem, options)
     first, *others = _rungs(problem)
-    is_roller = scaled.groups.shape.as_line and not problem.contact.is_line
-    if is_roller and problem.asperities is not None and not problem.is_coupled:
+    if move_together(scaled) and not (problem.contact.is_line or problem.is_coupled):
         others = [EACH_ALONE, *others]
     if is_second or options.wedge_order is not None:
         return (first, *others)

@@ -45,7 +45,7 @@ class Relaxation:
     it, over that pressure: less than all between asperities, and at fronts that it does not
     resolve."""
     together: bool = True
-    """Asperities of lines and rollers that carry alone change together, not each by itself."""
+    """Whether asperities that carry alone may change together, not each by itself."""
     rate: float = 0.0
     """Least convergence rate per cycle that iteration errors assume [-], as small steps hide slow
     changes: without it, 14 of 31 bearings (M = 20,000 to 185,000) err by twice to a hundred times

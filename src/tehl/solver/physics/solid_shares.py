@@ -93,8 +93,8 @@ class Summits(OilAlone):
             self.follow_at(level, reach, separation, frozen)
 
     def moves_together(self, level: Carried) -> bool:
-        """Return whether they do: along lines and rollers, whose deflection reaches far."""
-        return self.equations.groups.shape.as_line and level.smoother.relaxation.together
+        """Return whether they do, unless a strategy changes each by itself."""
+        return self.equations.solids.together and level.smoother.relaxation.together
 
     def follow_at(self, level: Carried, reach: float, separation: Array, frozen: FlagArray) -> None:
         """Evaluate the laws at a separation; the oil of the ``frozen`` nodes stays as well."""
