@@ -176,7 +176,7 @@ class Conserving(ZeroPressure):
         if level.stencil.conserves != STEADILY:
             return None
         now = level.film.partial == 0
-        if not self.keeps_orders:
+        if not (self.keeps_orders and self.filled.size):
             self.filled, self.turns = now, np.zeros(now.shape, np.uint8)
         turns = (now != self.filled) & (self.turns < MOST_TURNS)
         self.turns += turns
