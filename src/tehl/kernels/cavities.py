@@ -76,7 +76,8 @@ def fill(film: Film, stencil: Stencil) -> None:
 
     Without the flow from a film that is downstream along x, of which a part comes back at once.
     Rows that move against x, and columns against y, the other way round; rows of both ways lie
-    beside each other, so that a second time brings what has come from there.
+    beside each other, so that a second time brings what has come from there. Where all rows move
+    along x, all upstream is known at once.
     """
     (ny, nx), rate = film.p.shape, stencil.w0 - stencil.w2
     first, last = _inner_rows(ny, stencil.mirror)

@@ -131,20 +131,24 @@ def divergence_of_full(
         Which nodes are full of oil, (ny, nx).
     """
     (along, across), filled = flux, full.astype(float)
-    ends = np.zeros((grid.shape[0], 1))
-    faces = 0.5 * filled[:, 1:] * filled[:, :-1] * (along[:, 1:] + along[:, :-1])
-    found = np.diff(np.concatenate([ends, faces, ends], axis=1), axis=1) / grid.dx
+    found = _divergence(along.T, filled.T, np.full(grid.nx, grid.dx)).T
     if grid.ny == 1:
-        return np.asarray(found)
-    cells = np.full(grid.ny, grid.dy) if grid.wraps else np.diff(grid.faces)
-    beyond = np.zeros((1, grid.nx))
-    filled, across = (
-        np.concatenate([*sides[:1], one, *sides[1:]])
-        for one in (filled, across)
-        for sides in [grid.beyond(one, 1) if grid.wraps else (beyond, beyond)]
-    )
-    faces = 0.5 * filled[1:] * filled[:-1] * (across[1:] + across[:-1])
-    return np.asarray(found + np.diff(faces, axis=0) / (stretch * cells)[:, None])
+        return found
+    if not grid.wraps:
+        return found + _divergence(across, filled, stretch * np.diff(grid.faces))
+    # the last row is the first one
+    cells = np.full(grid.ny + 2, stretch * grid.dy)
+    south, north = grid.beyond(across, 1)
+    before, behind = grid.beyond(filled, 1)
+    wider = np.concatenate([south, across, north]), np.concatenate([before, filled, behind])
+    return found + _divergence(*wider, cells)[1:-1]
+
+
+def _divergence(flux: Array, filled: Array, cells: Array) -> Array:
+    """Return the divergence along the first axis, of cells with those widths; none at its ends."""
+    faces = np.zeros((len(flux) + 1, *flux.shape[1:]))
+    faces[1:-1] = 0.5 * filled[1:] * filled[:-1] * (flux[1:] + flux[:-1])
+    return np.asarray(np.diff(faces, axis=0) / cells[:, None])
 
 
 def _cubic(nodes: Array, places: Array) -> tuple[Array, Array, BoolArray]:

@@ -86,7 +86,10 @@ def _arrive(
 
 @helper
 def _fill_table(modes: Modes, step: float) -> None:
-    """Fill the table for a step: int_0^1 exp(-d t) dt and the same with 1 - t, d the decay."""
+    """Fill the table for a step: int_0^1 exp(-d t) dt and the same with 1 - t, d the decay.
+
+    As `tehl.operators.line_source.averages`, which is for all rates at once.
+    """
     for m in range(modes.rate.shape[0]):
         decay = modes.rate[m] * step
         left = math.exp(-decay)

@@ -37,9 +37,9 @@ from tehl.operators.turning import Entrainment, entrainment
 MOSTLY_DRY = 0.8
 """Part of the load on asperities, by formulas, from which those of point contacts without oil
 change together: two circles (0.91 and 0.98 of the load, M = 856 and 224, the second with scarce
-oil) converged by no strategy in 25 s, and do in 0.5 and 0.2; an inner ring with 0.98 takes a third
-of the time. With less they take more time, and another ring (0.17, M = 74,000) no longer
-converges."""
+oil) converged by no strategy in 25 s, and do in 0.5 and 0.2; a gear tooth with 0.98 takes a third
+of the time. With less they take up to twice the time, and an outer ring (0.17, M = 74,000) no
+longer converges."""
 FLOOR = 0.02
 """Least film in the conductance, over the expected central film: a heated roller with M = 68 has
 0.017 of its isothermal film at its ends, and 0.05 of its own."""

@@ -36,7 +36,9 @@ BESIDE_CAVITIES = 2
 face, and one as they fill and empty."""
 MOST_TURNS = 4
 """Times that a node becomes full, or partly filled, after the nodes keep their orders, for what
-sliding carries aside: where a film begins nodes would alternate with it."""
+sliding carries aside: where a film begins nodes would alternate with it. Of the oil of a heated
+ball 1e-4 is then not conserved on 49 and 97 nodes, with 2 turns up to 5e-4; without limit the film
+does not come to rest."""
 
 
 class Wetted(Protocol):
