@@ -12,7 +12,7 @@ from tehl.api.solvers import solve, solve_transient
 from tehl.contact.options import ROLLER_ENDS, Domain, Options
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.spin import slowing, spin_error
+from tehl.estimate.spin import load_per_e_fold, slowing
 from tehl.operators.far_field import far_field
 from tehl.operators.surfaces import Solids, sides
 from tehl.operators.turning import entrainment, turning_wedge
@@ -196,7 +196,7 @@ def test_the_drift_of_lines_has_their_distance_and_what_enters_at_the_ends_their
         np.testing.assert_array_equal(even[end], np.where(enters, 2.0, 1.0) * even[16])
     ratio = (y[-1] - y[0]) / (NODES[1] - 1) / (0.5 * (y[2:] - y[:-2]))
     np.testing.assert_allclose(crowded[1:-1], ratio[:, None] * even[1:-1], rtol=1e-12)
-    assert spin_error(scaled) == 0.0  # nothing is beside the ends
+    assert load_per_e_fold(scaled) == 0.0  # nothing is beside the ends
 
 
 def test_heat_along_circles_is_that_of_even_lines_where_lines_crowd():

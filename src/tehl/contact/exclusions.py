@@ -90,6 +90,29 @@ def check_spin(problem: PointContact) -> None:
         )
 
 
+def check_flooded(problem: PointContact) -> None:
+    """Check that the radius out to which there is oil is one, and that of a flooded contact."""
+    radius, hertz = problem.contact.flooded_radius, problem.hertz
+    if radius is None:
+        return
+    if problem.contact.has_lines:
+        raise ValueError(
+            "contact.flooded_radius belongs to ellipses that spin, which move oil far around the "
+            "contact; lines and rollers do not: remove it"
+        )
+    if problem.supply is not None:
+        raise ValueError(
+            "contact.flooded_radius and supply exclude each other: the oil of a layer ends where "
+            "the gap is as thick"
+        )
+    if radius < max(hertz.half_width_x, hertz.half_width_y):
+        raise ValueError(
+            f"contact.flooded_radius = {1e3 * radius:.3g} mm lies within the contact, whose "
+            f"half-widths are {1e3 * hertz.half_width_x:.3g} and {1e3 * hertz.half_width_y:.3g} mm:"
+            " state a larger one"
+        )
+
+
 def check_line(problem: PointContact) -> None:
     """Check that a line, or a piece of a roller that goes on, states nothing that needs ends."""
     contact = problem.contact

@@ -23,6 +23,7 @@ from tehl.contact.bodies import reduced_radius
 from tehl.contact.boundary_contact import THICKEST_BOUNDARY_FILM, THINNEST_BOUNDARY_FILM
 from tehl.contact.exclusions import (
     check_dynamics,
+    check_flooded,
     check_line,
     check_motion,
     check_roller,
@@ -97,6 +98,7 @@ def check(problem: PointContact) -> None:
             f'be between {1.0 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}, or contact.type "line"'
         )
     check_size(problem)
+    check_flooded(problem)
     check_turning(problem)
     check_bodies(problem)
 

@@ -270,6 +270,7 @@ class Contact(LoadedContact):
         "sliding_angle": "slip_angle sliding_direction skew_angle",
         "spin_1": "omega_1 spin_speed_1",
         "spin_2": "omega_2 spin_speed_2",
+        "flooded_radius": "oil_radius pool_radius bath_radius",
         "radius_x": "rx r_x",
         "radius_y": "ry r_y",
         "radius": "r",
@@ -298,6 +299,9 @@ class Contact(LoadedContact):
     spin_2: AngularVelocity = 0.0
     """Angular velocities of the surfaces about z, counter-clockwise [rad/s]; speeds are those at
     the centre."""
+    flooded_radius: Length | None = None
+    """Radius out to which there is oil around an ellipse that spins [m]; without it the smaller of
+    both radii of curvature."""
 
     @model_validator(mode="before")
     @classmethod

@@ -17,6 +17,7 @@ from tehl.estimate.line import (
 )
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.settled import settled
+from tehl.estimate.spin import left_by_spin, spun_domain
 from tehl.estimate.starvation import is_starved, starved_domain
 
 CAUTION = 2.0
@@ -269,7 +270,8 @@ def _of_film(scaled: ScaledProblem, error: float, *, near: bool) -> Domain:
     """Return the domain of `chosen_domain` without asperities."""
     if is_starved(scaled):
         return starved_domain(scaled)
-    least = domain = recommended_domain(scaled.entering, error, near=near)
+    least = recommended_domain(left_by_spin(scaled), error, near=near)
+    least = domain = spun_domain(scaled, least, error)
     factor, shape = 1.0, scaled.groups.shape
     is_heated = not shape.as_line and not body_contrast(scaled)
     left = (INLET_HEAT_PART if is_heated else ENTRY_PART) * error

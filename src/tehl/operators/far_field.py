@@ -15,7 +15,7 @@ is exact for the second term.
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from scipy.linalg import solve_banded
@@ -82,13 +82,19 @@ class Gap(NamedTuple):
         x, y : (float, float)
             Edges, X and kappa Y.
         """
+        if self.twist:
+            return self.rays(angle, x, y)[None]
         cosine, sine = np.cos(angle), np.sin(angle)
         along = np.where(cosine < 0.0, *x) / np.where(np.abs(cosine) < 1e-12, 1e-12, cosine)
-        if self.twist:
-            across = np.where(sine < 0.0, *y) / np.where(np.abs(sine) < 1e-12, 1e-12, sine)
-            return np.asarray(np.minimum(np.abs(along), np.abs(across))[None])
         sides = np.array([[-y[0]], [y[1]]]) / np.maximum(sine, 1e-12)
         return np.asarray(np.minimum(along, sides))
+
+    def rays(self, angle: Array, x: tuple[float, float], y: tuple[float, float]) -> Array:
+        """Return the radii of rays at the edges of a rectangle, (n,), for any angles."""
+        cosine, sine = np.cos(angle), np.sin(angle)
+        along = np.where(cosine < 0.0, *x) / np.where(np.abs(cosine) < 1e-12, 1e-12, cosine)
+        across = np.where(sine < 0.0, *y) / np.where(np.abs(sine) < 1e-12, 1e-12, sine)
+        return np.asarray(np.minimum(np.abs(along), np.abs(across)))
 
 
 def gap_of(groups: Groups) -> Gap:
@@ -161,9 +167,29 @@ def _solve(to_last: Array, diagonal: Array, to_next: Array, source: Array, wet: 
     return f
 
 
-def far_field(
-    grid: Grid, groups: Groups, speed: float = 1.0, slower: Array | float = 0.0
-) -> "Edges":
+class Edges(Protocol):
+    """The oil outside of a grid."""
+
+    def set_edges(self, pressure: Array, film: Array) -> None:
+        """Set the pressure on the edges for a film, (ny, nx)."""
+
+    def load(self, film: Array, gap: Array) -> float:
+        """Return the integral of P outside the grid [-], for film and undeformed gap."""
+        ...
+
+
+def slope_of(oil: Edges, film: Array, gap: Array) -> float:
+    """Return the change of the load outside of a grid with the film [-], as of ``oil.load``."""
+    step = 1e-4 * inlet_approach(film, gap)
+    return (oil.load(film + step, gap) - oil.load(film - step, gap)) / (2.0 * step)
+
+
+def inlet_approach(film: Array, gap: Array) -> float:
+    """Return H_0, the mean difference of a film and the undeformed gap at the inlet edge [-]."""
+    return max(float(np.mean(film[:, 0] - gap[:, 0])), 1e-9)
+
+
+def far_field(grid: Grid, groups: Groups, speed: float = 1.0, slower: Array | float = 0.0) -> Edges:
     """Return the pressure on the edges of a grid and the load outside of it.
 
     Parameters
@@ -195,7 +221,7 @@ class Turned:
     ``step`` along the rows is -1, or 1 where they hold one half of a symmetric contact.
     """
 
-    def __init__(self, forwards: "Edges", step: int) -> None:
+    def __init__(self, forwards: Edges, step: int) -> None:
         self.forwards, self.turn = forwards, (slice(None, None, step), slice(None, None, -1))
 
     def set_edges(self, pressure: Array, film: Array) -> None:
@@ -275,9 +301,9 @@ class FarField:
         Parameters
         ----------
         film, gap : array of the shape of the grid
-            H and the undeformed gap; H_0 is their mean difference at the inlet edge.
+            H and the undeformed gap.
         """
-        base = max(float(np.mean(film[:, 0] - gap[:, 0])), 1e-9)
+        base = inlet_approach(film, gap)
         s, r = np.sqrt(2.0 * base / self.growth), self.radius
         rays = np.arctan2(s, r) / (2.0 * s) + 0.5 * r / (r**2 + s**2)
         return float((self.weight * rays).sum())
@@ -288,19 +314,13 @@ class FarField:
         for (edge, amplitude), squeezed in zip(self.edges, self.squeezed, strict=True):
             by_film[edge] = -2.0 * amplitude / film[edge] ** 3
             by_rate[edge] = -squeezed / film[edge] ** 2
-        base = max(float(np.mean(film[:, 0] - gap[:, 0])), 1e-9)
+        base = inlet_approach(film, gap)
         outside = base + 0.5 * self.growth * self.radius**2
-        step = 1e-4 * base
-        higher, lower = self.load(film + step, gap), self.load(film - step, gap)
         return EdgeSlopes(
             by_film=by_film,
             by_rate=by_rate,
-            load_by_film=np.full(len(film), (higher - lower) / (2.0 * step * len(film))),
+            load_by_film=np.full(len(film), slope_of(self, film, gap) / len(film)),
             load_by_rate=-float((self.squeeze_weight / outside).sum()),
             by_flux=np.zeros(len(film)),
             load_by_flux=np.zeros(len(film)),
         )
-
-
-Edges = FarField | UpstreamField | Turned
-"""The oil outside of a grid."""

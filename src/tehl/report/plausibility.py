@@ -22,6 +22,7 @@ from tehl.estimate.film_formulas import (
 )
 from tehl.estimate.nodes import expected_bar, planned
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.spin import flooded_reach, outside_by_spin
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
 from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
@@ -353,6 +354,14 @@ def _about_domain(options: Options, scaled: ScaledProblem) -> Iterator[str]:
         yield (
             f"the inlet is {1e3 * reach:.3g} mm long, but a body has a radius of {1e3 * least:.3g} "
             "mm: its gap is taken as a parabola; check the radii, and the load"
+        )
+    outside = outside_by_spin(scaled)
+    if outside > 0.05 and options.has_far_field and scaled.problem.supply is None:
+        radius = 1e3 * flooded_reach(scaled) * scaled.scales.half_width_x
+        yield (
+            f"as surfaces spin, oil outside the contact carries about {percentage(outside)} of the "
+            f"load, out to {radius:.3g} mm; state contact.flooded_radius, or [supply], if oil ends "
+            "nearer"
         )
     stated, wanted = options.domain, proposed_domain(scaled, options)
     if not isinstance(stated, Domain):

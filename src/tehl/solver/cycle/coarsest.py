@@ -125,7 +125,7 @@ class CoarsestSolver:
     def pack(self) -> Array:
         """Return the state of the matrix that later steps may use, as `_packed`; zero without."""
         if self.last is None or not self.keeps_matrix:
-            return np.zeros((len(PACKED) + len(Conductance._fields) + 1, self.level.film.p.size))
+            return np.zeros((len(PACKED) + len(Conductance._fields) + 2, self.level.film.p.size))
         return self.last.packed
 
     def unpack(self, packed: Array) -> None:
@@ -136,7 +136,7 @@ class CoarsestSolver:
         packed : (fields, n) array
             Of a level with the same grid and the same weights of the time step.
         """
-        self.last, (*values, free) = None, packed
+        self.last, (*values, yielding, free) = None, packed
         if not free.any():
             return
         known, count = linearised(self.level), len(PACKED)
@@ -146,7 +146,9 @@ class CoarsestSolver:
             fields[name] = one[: own.size].astype(own.dtype)
         state = known._replace(**fields, conductance=Conductance(*values[count:]))
         system = self._system()._replace(
-            residual=np.full(free.size, -1.0), frozen=(free == 0.0).astype(np.uint8)
+            residual=np.full(free.size, -1.0),
+            frozen=(free == 0.0).astype(np.uint8),
+            yielding=float(yielding[0]),
         )
         self.last = self._factored(state, system)
 
@@ -161,7 +163,7 @@ class CoarsestSolver:
             lift=np.repeat(level.equations.balances.modes, level.grid.nx, axis=1)
             * (1.0 if answer is None else answer.lift.ravel()),
             missing=level.missing(),
-            yielding=0.0 if answer is None else answer.stiffness,
+            yielding=(0.0 if answer is None else answer.stiffness) - level.outside_slope,
             nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
         )
 
@@ -187,7 +189,9 @@ class CoarsestSolver:
             used = count + level.rigid.size
             factors, pivots, _ = dgetrf(work.matrix[:used, :used].T)
         work = work._replace(matrix=np.empty((0, 0)))
-        return Factored(state, work, count, factors, pivots, _packed(state, work.free[:count]))
+        return Factored(
+            state, work, count, factors, pivots, _packed(state, system, work.free[:count])
+        )
 
     def _take(self, known: Factored) -> float:
         """Take a step of limited length by a linearised system; return the largest change.
@@ -238,14 +242,16 @@ class CoarsestSolver:
                 one[:] = new
 
 
-def _packed(state: Coarse, free: IntArray) -> Array:
-    """Return the fields of a state that `fill_step` reads, (fields, n); the last is 1 at ``free``.
+def _packed(state: Coarse, system: CoarseSystem, free: IntArray) -> Array:
+    """Return the fields of a state that `fill_step` reads, (fields, n).
 
-    Without cavities some have no elements, and zeros here.
+    Without cavities some have no elements, and zeros here. The last but one is the yielding of the
+    load everywhere, the last 1 at ``free``.
     """
     values = (*(getattr(state, name) for name in PACKED), *state.conductance)
-    packed = np.zeros((len(values) + 1, state.p.size))
+    packed = np.zeros((len(values) + 2, state.p.size))
     for row, one in zip(packed, values, strict=False):
         row[: one.size] = one
+    packed[-2] = system.yielding
     packed[-1, free] = 1.0
     return packed

@@ -19,13 +19,14 @@ from tehl.contact.options import Options
 from tehl.estimate.grid import Grid
 from tehl.estimate.inlet_heating import inlet_heating_factor
 from tehl.estimate.scaling import Groups, ScaledProblem
-from tehl.estimate.spin import slowing, spin_number
+from tehl.estimate.spin import spin_number
 from tehl.estimate.starvation import EnteringOil, entering_oil, supplied_film
 from tehl.estimate.summits import shared_load
 from tehl.kernels.faces import Stencil
 from tehl.operators.deformation import Deformation, choose
 from tehl.operators.dry import start_pressure
-from tehl.operators.far_field import Edges, far_field
+from tehl.operators.far_field import Edges
+from tehl.operators.far_spin import oil_outside
 from tehl.operators.film import gap, rigid_motions
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence, influence_of
@@ -142,7 +143,7 @@ class Equations:
             return replace(self, balances=balances)
         outside = self.outside
         if outside.far_field is not None:
-            far = far_field(self.grid, scaled.entering, moment.speed, slowing(scaled, self.grid.y))
+            far = oil_outside(self.grid, scaled, moment.speed)
             outside = outside._replace(far_field=far)
         return replace(
             self,
@@ -175,7 +176,7 @@ class Equations:
         conserves = scaled.problem.conserves_oil
         film, far, spins = scaled.problem.contact_film, None, spin_number(scaled) != 0.0
         if options.has_far_field and oil is None:
-            far = far_field(grid, scaled.entering, moment.speed, slowing(scaled, grid.y))
+            far = oil_outside(grid, scaled, moment.speed)
         modes, moments = rigid_motions(grid, groups)
         return cls(
             grid=grid,
@@ -252,7 +253,8 @@ class Sources:
     ``residual`` is what f leaves at the last evaluation, and ``heights`` are those of the surfaces
     that g has lost. ``history`` is the contribution of previous films to wedge and squeeze in a
     time step; f is less by it. ``drift`` is the divergence of what sliding carries beside the mean
-    flow; f is more by it.
+    flow; f is more by it. ``outside`` is what the load beyond the edges changes by with the
+    approach, on coarser grids.
     """
 
     reynolds: Array
@@ -263,3 +265,4 @@ class Sources:
     heights: Array | None = None
     history: Array | None = None
     drift: Array | None = None
+    outside: float = 0.0

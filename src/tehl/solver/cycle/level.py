@@ -14,7 +14,7 @@ from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.kernels import properties, reynolds
 from tehl.kernels.faces import STEADILY, Stencil
-from tehl.operators.far_field import Edges
+from tehl.operators.far_field import Edges, slope_of
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Relaxation, make_smoother
 from tehl.solver.physics.cavity import cavity_of
@@ -261,9 +261,19 @@ class Level:
 
     @property
     def outside(self) -> float:
-        """Load beyond the edges of the finest level, part of w [-]."""
+        """Load beyond the edges, part of w; on coarser grids what it has changed by there [-]."""
         far = self.far_field
-        return 0.0 if far is None else far.load(self.separation, self.equations.gap)
+        if far is None:
+            return self.sources.outside * float(self.rigid[0] - self.correction.rigid[0])
+        return far.load(self.separation, self.equations.gap)
+
+    @property
+    def outside_slope(self) -> float:
+        """Change of the load beyond the edges with the approach [-]."""
+        far = self.far_field
+        if far is None:
+            return self.sources.outside
+        return slope_of(far, self.separation, self.equations.gap)
 
     def load_error(self) -> float:
         """Return the error of the load balance, or that of a moment if it is larger, over w."""

@@ -81,6 +81,7 @@ def restrict_load(fine: Level, coarse: Level) -> None:
     carried = np.append(balances.integral(pressure), balances.moments_of(pressure))
     coarse.sources.load, *moments = fine.missing() + carried
     coarse.sources.moments = np.array(moments)
+    coarse.sources.outside = fine.outside_slope
 
 
 def correct(fine: Level, coarse: Level) -> None:

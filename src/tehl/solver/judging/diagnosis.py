@@ -14,6 +14,7 @@ from tehl.estimate.film_formulas import expected_film, inlet_stress
 from tehl.estimate.grid import Grid
 from tehl.estimate.nodes import expected_points, film_to_resolve
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.spin import LESS_SPIN, flooded_reach, outside_by_spin
 from tehl.estimate.summits import shared_load
 from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.result.solution import Hint, Settings, Status
@@ -37,6 +38,8 @@ LESS_ROUGH = Hint(
 )
 
 
+MOST_OUTSIDE = 0.8
+"""Part of the load outside an ellipse that spins from which on its film floats."""
 MORE_CYCLES = 4
 """Factor on ``numerics.max_cycles`` in the hint of a run that was still converging."""
 
@@ -185,7 +188,8 @@ def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
     scaled : ScaledProblem
         Its expected film, temperatures and stresses are compared with limits.
     """
-    found = [*_load_on_an_edge(scaled), *_glass(scaled.problem), *_film_below_grid(grid, scaled)]
+    found = [*_load_on_an_edge(scaled), *_floating(scaled), *_glass(scaled.problem)]
+    found += _film_below_grid(grid, scaled)
     if scaled.problem.is_coupled:
         found = [*_body_temperature(scaled.problem), *_shear_stress(scaled), *found]
     if not found:
@@ -295,6 +299,21 @@ def _load_on_an_edge(scaled: ScaledProblem) -> Iterator[LikelyCause]:
             "as an ellipse (contact.radius_x and radius_y without a type)."
         ),
     )
+
+
+def _floating(scaled: ScaledProblem) -> Iterator[LikelyCause]:
+    """Yield the spin if the oil that it presses in outside the contact carries most of the load."""
+    outside = 0.0 if scaled.problem.supply else outside_by_spin(scaled)
+    if outside > MOST_OUTSIDE:
+        reach = 1e3 * flooded_reach(scaled) * scaled.scales.half_width_x
+        yield LikelyCause(
+            cause="spin",
+            message=(
+                f"contact.spin_1 and spin_2 let oil outside the contact, out to {reach:.3g} mm, "
+                f"carry about {percentage(outside)} of the load."
+            ),
+            hint=Hint(LESS_SPIN),
+        )
 
 
 def _film_below_grid(grid: Grid, scaled: ScaledProblem) -> Iterator[LikelyCause]:

@@ -8,7 +8,7 @@ from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.nodes import LIMITED_RATIO, SCARCE, expected_bar, side_bar
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.spin import spin_error
+from tehl.estimate.spin import ends_within, left_by_spin, spin_error
 from tehl.estimate.starvation import FORMULA_ERROR, supplied_film, supply_error, supply_ratio
 from tehl.estimate.third_order import LEAST_SLENDER, third_order_bar
 from tehl.result.bars import ErrorEstimate
@@ -141,8 +141,9 @@ def _by_grids(
         return None
     edges, domain = level.grid.domain, 0.0
     if level.equations.outside.far_field is not None:
-        domain = far_field_error(scaled.entering, edges) + entry_error(scaled, edges)
-        domain += spin_error(scaled)
+        domain = entry_error(scaled, edges)
+        if not ends_within(scaled, edges):
+            domain += far_field_error(left_by_spin(scaled), edges) + spin_error(scaled, edges)
     expected = _expected_bar(hierarchy, level)
     traits = FilmTraits(
         order=order,

@@ -9,7 +9,7 @@ from tehl.contact.options import MOST_NODES_PER_AXIS, Domain, Options, can_be_ha
 from tehl.estimate.memory import RESTING_PART, USUAL_MEMORY, memory_limit, needed_memory
 from tehl.estimate.nodes import FAMILIES, FAVOURED, most_lines, side_bar
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.spin import spin_error
+from tehl.estimate.spin import LESS_SPIN, spin_error
 from tehl.estimate.starvation import supply_error
 from tehl.result.bars import ErrorEstimate
 from tehl.solver.cost import LEAST_SECONDS, working_time
@@ -55,11 +55,6 @@ the end, on 193 x 385."""
 BETWEEN_MARGIN, SCARCE_MARGIN = 1.05, 1.25
 """Margins of the error bars of another grid, the second one where oil is scarce: there minima at
 the sides converge with an order of 1.5 (a ring, M = 30,000)."""
-
-LESS_SPIN = (
-    "Take a higher load or less spin (the mean of contact.spin_1 and contact.spin_2): more of the "
-    "load is then on the grid."
-)
 
 
 @dataclass(slots=True)
@@ -330,7 +325,7 @@ class Goal:
         self.obstacle = self.advice = ""
         if errors is not None and errors.domain > self.target:
             cause = "the domain, upstream of which the oil warms or cools"
-            if spin_error(self.scaled) > 0.5 * errors.domain:
+            if spin_error(self.scaled, level.grid.domain) > 0.5 * errors.domain:
                 cause = "the pressure that spin makes outside the domain, in the gap of an ellipse"
                 self.advice = LESS_SPIN
             if isinstance(self.options.domain, Domain):

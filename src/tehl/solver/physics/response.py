@@ -20,7 +20,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from tehl.base.typing import Array, BoolArray
-from tehl.operators.far_field import EdgeSlopes, Turned
+from tehl.operators.far_field import FarField
 from tehl.operators.jacobian import (
     Cavity,
     Neighbours,
@@ -29,6 +29,7 @@ from tehl.operators.jacobian import (
     neighbours_of,
     rows,
 )
+from tehl.operators.upstream import EdgeSlopes, UpstreamField
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.linearised import conductance_slopes
 from tehl.solver.physics.cavity import oil_flow
@@ -70,7 +71,7 @@ class FilmResponse:
         self.outside = None
         self.face: Face | None = None
         if far is not None:
-            assert not isinstance(far, Turned)  # the film is steady
+            assert isinstance(far, FarField | UpstreamField)  # steady, without spin
             self.outside = far.slopes(film.h, level.equations.gap)
             edge = (film.p > 0.0).ravel() & ~inner & (self.outside.by_film != 0.0).ravel()
             self.unknown = self.carries = self.unknown | edge
