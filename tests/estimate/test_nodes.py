@@ -1,11 +1,15 @@
 """Number of nodes, planned for the error to reach."""
 
+import math
+
 import pytest
 
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.supply import Supply
+from tehl.contact.transient import Transient
 from tehl.estimate.domain import domain_of, far_field_error
+from tehl.estimate.duration import bend_between
 from tehl.estimate.nodes import (
     EXPECTED_BAR_MARGIN,
     FAVOURED,
@@ -148,3 +152,33 @@ def test_a_film_that_varies_in_time_has_an_order_of_three(tables: dict) -> None:
     scaled = ScaledProblem.of(ContactProblem.model_validate(stated))
     assert planned(scaled, Options()).order == 3
     assert planned(scaled, Options(points=129)).order == 2
+
+
+def changing(duration: float, load: object) -> ScaledProblem:
+    """Return a contact whose load changes over a time [a_x/u_m]."""
+    problem = moes_contact(50.0, 5.0)
+    unit = problem.hertz.half_width_x / problem.entrainment_speed
+    stated = {"duration": duration * unit, "load": load(duration * unit)}
+    transient = Transient.model_validate(stated)
+    return ScaledProblem.of(problem.model_copy(update={"transient": transient}))
+
+
+def test_a_parabola_is_off_a_straight_line_by_the_square_of_the_step():
+    """By c dt^2 / 4 of c t^2."""
+    scaled = changing(8.0, lambda end: f"1 + 0.5*(t/({end} s))**2")
+    bends = [bend_between(scaled, steps) for steps in (2, 4, 8)]
+    assert bends == pytest.approx([0.5 / 16 / 1.5, 0.5 / 64 / 1.5, 0.5 / 256 / 1.5], rel=1e-6)
+
+
+@pytest.mark.parametrize("duration", [0.3, 4.0, 100.0])
+def test_time_steps_follow_what_changes(duration: float):
+    """A change of a sine within some mesh widths takes a finer mesh, a slow one does not."""
+    scaled = changing(duration, lambda end: f"1 + 0.2*sin(6.283*t/({end} s))")
+    options = planned(scaled, Options(error=0.02))
+    domain = domain_of(scaled, options)
+    cell = (domain.x[1] - domain.x[0]) / (options.shape[1] - 1)
+    steps = math.ceil(duration / cell)
+    assert bend_between(scaled, steps) < 0.25 * 0.02
+    without = changing(duration, lambda end: [[0.0, 1.0], [end, 1.2]])  # a straight line
+    usual = planned(without, Options(error=0.02)).shape
+    assert (options.shape > usual) == (duration == 0.3)

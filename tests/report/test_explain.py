@@ -394,3 +394,12 @@ def test_the_plan_of_a_line_has_one_row():
     assert (case.options.shape, case.expected_shape[0]) == ((1, 257), 1)
     assert f"257 nodes   {case.expected_shape[1]} expected for an error of 2 %" in as_text(case)
     assert case.time.seconds < 2e-2 * case.time.steps  # much less than on 257 rows
+
+
+def test_a_load_that_changes_within_few_steps_is_reported():
+    """Of stated nodes; others are as many as its course needs."""
+    course = {"load": "1 + 0.3*sin(6.283*t/(0.1 ms))", "duration": "0.1 ms"}
+    stated = explained(transient=course, numerics={"points": 65})
+    assert any("off a straight line within one of" in one for one in stated.questions)
+    chosen = explained(transient=course)
+    assert not any("off a straight line" in one for one in chosen.questions)

@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import numpy as np
+
 from tehl.base.errors import InputError
 from tehl.contact.moment import courses_of
 from tehl.contact.transient import Transient
@@ -17,6 +19,8 @@ MOST_TIME_STEPS = 20_000
 """Number of steps beyond which a stated duration is considered a mistake."""
 PASSED_DISTANCE = 1.5
 """Distance downstream of the centre at which the middle of a feature has passed [a_x]."""
+MOST_FOR_COURSES = 256
+"""Most time steps that a grid is refined for, so that they follow what changes in time."""
 PERIODS = 2.5
 """Wavelengths of a harmonic surface that pass the centre, so that a fit over time has two."""
 LONGEST_WAVE = 6.0
@@ -185,6 +189,48 @@ def whole_passing(scaled: ScaledProblem) -> float:
     )
     times = (far / min(abs(part.speed), units.speed) for far, part in distances)
     return max(times, default=0.0)
+
+
+def bend_between(scaled: ScaledProblem, steps: int) -> float:
+    """Return how far what changes in time is off straight lines between equal time steps [-].
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        A transient problem.
+    steps : int
+        Number of steps of its duration.
+
+    Returns
+    -------
+    float
+        The largest part of the largest value of a load, a speed or a radius.
+    """
+    time, found = np.linspace(0.0, duration_of(scaled), 4 * steps + 1), 0.0
+    for course in courses_of(scaled.problem).values():
+        values = np.array([course.at(moment) for moment in time])
+        straight = np.interp(time, time[::4], values[::4])
+        largest = float(np.abs(values).max())
+        found = max(found, float(np.abs(values - straight).max()) / max(largest, 1e-300))
+    return found
+
+
+def steps_of_courses(scaled: ScaledProblem, part: float) -> int:
+    """Return the fewest time steps, a power of two, within which nothing bends by more.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        A transient problem, or a steady one, for which it is zero.
+    part : float
+        Of the largest value, as `bend_between` [-].
+    """
+    if not courses_of(scaled.problem):
+        return 0
+    steps = 4
+    while steps < MOST_FOR_COURSES and bend_between(scaled, steps) > part:
+        steps *= 2
+    return steps
 
 
 def number_of_steps(scaled: ScaledProblem, seconds: float) -> int:

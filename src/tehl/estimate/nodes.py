@@ -7,6 +7,7 @@ from dataclasses import replace
 from tehl.contact.options import Domain, Options
 from tehl.contact.shape import LINE
 from tehl.estimate.domain import domain_of, far_field_error
+from tehl.estimate.duration import duration_of, steps_of_courses
 from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.grid import END_CELL, SHORTEST_CELL, Grid, can_mirror, crowding
@@ -17,6 +18,9 @@ from tehl.estimate.starvation import is_starved, supplied_film, supply_ratio
 from tehl.estimate.summits import shared_load
 from tehl.estimate.third_order import third_order_bar
 
+PART_IN_STEP = 0.25
+"""Part of the error to reach by which a load, a speed or a radius may be off a straight line within
+a time step."""
 LEAST_LAMBDA = 0.3
 """Film over sigma below which asperities make bars no smaller."""
 FAMILIES = tuple(2**k * n + 1 for k in range(2, 9) for n in (16, 20, 24, 28))
@@ -188,15 +192,36 @@ def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> tuple[float, float
     return WAVE_NODES * along, WAVE_NODES * across
 
 
+def nodes_of_courses(scaled: ScaledProblem, domain: Domain, error: float) -> float:
+    """Return the nodes along x with which time steps follow what changes in a run; 0 if nothing.
+
+    A step is that in which the mean motion moves by ``stride`` mesh widths.
+
+    Parameters
+    ----------
+    scaled, domain : ScaledProblem, Domain
+        The contact, and its edges [a_x].
+    error : float
+        To reach, of which a step may miss `PART_IN_STEP` of a load, a speed or a radius [-].
+    """
+    transient, scales = scaled.problem.transient, scaled.scales
+    steps = steps_of_courses(scaled, PART_IN_STEP * error)
+    if transient is None or steps == 0:
+        return 0.0
+    way = duration_of(scaled) * scales.speed / scales.half_width_x
+    return steps * transient.stride * (domain.x[1] - domain.x[0]) / way
+
+
 def _points_of_waves(
-    scaled: ScaledProblem, domain: Domain, enough: Callable[[float], tuple[int, int]]
+    scaled: ScaledProblem, domain: Domain, least: float, enough: Callable[[float], tuple[int, int]]
 ) -> tuple[int, int]:
     """Return the fewest nodes (nx, ny) that film and waves of a point contact need.
 
     Where waves need more than `ROUGH_NODES` allow, those that come nearest. ``enough`` returns the
-    nodes (nx, ny) for the film, more along x than those for the waves.
+    nodes (nx, ny) for the film, more along x than those for the waves or the ``least``.
     """
     along, across = _nodes_of_waves(scaled, domain)
+    along = max(along, least)
     slender, found = max(scaled.groups.ellipticity, 1.0), []
     for part in (one for one in ROUGH_PARTS if one <= slender):
         wanted, most = max(along, across / part), ROUGH_NODES / math.sqrt(part)
@@ -246,10 +271,11 @@ def planned(scaled: ScaledProblem, options: Options, *, of_central: bool = False
         )
         return nodes, nodes
 
+    steps = nodes_of_courses(scaled, domain, options.target)
     if kind.is_line:
-        least, _ = _nodes_of_waves(scaled, domain)
+        least = max(_nodes_of_waves(scaled, domain)[0], steps)
         return options.on_points(enough(min(least, LINE_ROUGH_NODES))[0], 1)
-    return options.on_points(*_points_of_waves(scaled, domain, enough))
+    return options.on_points(*_points_of_waves(scaled, domain, steps, enough))
 
 
 def _third_order_points(

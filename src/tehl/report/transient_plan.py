@@ -6,12 +6,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.base.units import percentage
 from tehl.contact.moment import SAMPLES, courses_of
 from tehl.contact.options import Options
-from tehl.estimate.duration import duration_of, misplaced, number_of_steps
+from tehl.estimate.duration import (
+    MOST_FOR_COURSES,
+    bend_between,
+    duration_of,
+    misplaced,
+    number_of_steps,
+)
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
 from tehl.report.roughness import RESOLVES
+
+LARGEST_BEND = 0.01
+"""What changes in time may be off a straight line within a step by this part of its largest value.
+"""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -85,8 +96,23 @@ def transient_plan(
         points_per_wave=tuple(one if math.isfinite(one) else None for one in (first, second)),
         shift_per_step=shift,
         changes=tuple(_changes(scaled, duration)),
-        questions=(*_questions(scaled, duration, (first, second), shift), *ends),
+        questions=(
+            *_questions(scaled, duration, (first, second), shift),
+            *_jumps(scaled, steps),
+            *ends,
+        ),
     )
+
+
+def _jumps(scaled: ScaledProblem, steps: int) -> Iterator[str]:
+    """Yield what changes too fast for the time steps."""
+    bend = bend_between(scaled, steps) if steps <= MOST_FOR_COURSES else 0.0
+    if bend > LARGEST_BEND:
+        yield (
+            f"what changes in time is up to {percentage(bend)} off a straight line within one of "
+            f"{steps} time steps, and the film is as far behind; take more numerics.points: a step "
+            "moves by mesh widths"
+        )
 
 
 def _distance(scaled: ScaledProblem, step: float, steps: int) -> float:

@@ -16,7 +16,7 @@ from tehl.contact.problem import ContactProblem
 from tehl.contact.transient import Transient
 from tehl.estimate.duration import misplaced, number_of_steps
 from tehl.estimate.grid import Grid
-from tehl.estimate.nodes import finest_grid, planned
+from tehl.estimate.nodes import finest_grid, nodes_of_courses, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
 from tehl.kernels.warmup import warm_up
@@ -154,18 +154,14 @@ class Run:
         self.kept = kept_steps(transient, self.steps, self.seconds)
 
     def _steady_start(self, options: Options, monitor: StepMonitor) -> tuple[Attempt, Solution]:
-        """Solve for the steady film at time zero, with the load of that time, rough or smooth.
+        """Solve for the steady film at time zero, rough or smooth.
 
         Heat and film may alternate by less than the mesh errs, and a tight solve may take all its
         time on a grid that is too coarse, or find it too coarse before its cycles end: then the
         accuracy of the options is enough. A film that no accuracy changes is not solved again.
         """
-        tight = options.model_copy(
-            update={
-                "accuracy": "tight",
-                "tolerance": min(options.tolerance, START_TOLERANCE),
-            }
-        )
+        least = min(options.tolerance, START_TOLERANCE)
+        tight = options.model_copy(update={"accuracy": "tight", "tolerance": least})
         solve = partial(
             try_strategies, self.problem, monitor=monitor, rough=self.transient.start != "smooth"
         )
@@ -192,7 +188,8 @@ class Run:
         """Return the start on a coarser grid where that is enough for the error, else this one."""
         run, errors = attempt.run, result.errors
         fewer = run.goal.fewer_nodes(run.finest, errors) if result.status.converged else None
-        if fewer is None:
+        least = nodes_of_courses(run.hierarchy.scaled, run.finest.grid.domain, tight.target)
+        if fewer is None or fewer[0] < least:
             return attempt, result
         order = run.hierarchy.options.wedge_order
         stated = tight.on_points(*fewer).model_copy(update={"wedge_order": order})
