@@ -23,7 +23,7 @@ def test_without_spin_it_is_that_of_the_entrainment(gap):
 
 @pytest.mark.parametrize("ratio", [0.35, 0.8, 3.0])
 def test_by_spin_alone_each_ring_has_the_load_of_the_closed_form(ratio):
-    """4/3 of that without cavitation, times 1.2234: of P = 8 f / r^3 on f = 1 / 8 per radian."""
+    """4/3 of that without cavitation, times 1.2234; 8 f / r^2 per radian and logarithm of r."""
     far = ring(Gap(ratio), 0.0, 1.0, 1000.0, 1e8) / 1000.0
     load = 8.0 * 2.0 * np.pi * float(far.mean())
     assert load == pytest.approx(1.6312 * abs(1.0 - ratio) / (ratio * (1.0 + ratio)), rel=5e-3)
@@ -35,6 +35,11 @@ def test_the_opposite_spin_has_the_mirrored_pressure():
     assert np.roll(other[::-1], 1) == pytest.approx(one, abs=1e-9 * one.max())
 
 
+def test_reversed_motion_has_the_pressure_turned_by_half_a_turn():
+    one, other = (ring(Gap(0.4, 0.2), speed, 0.2, 20.0) for speed in (1.0, -1.0))
+    assert np.roll(other, 64) == pytest.approx(one, abs=1e-9 * one.max())
+
+
 def test_without_cavitation_it_is_the_closed_form_in_its_lobes():
     """XE / G^2 is a bound from below where both move oil in: cavitation takes suction away."""
     ratio = 0.5
@@ -42,7 +47,6 @@ def test_without_cavitation_it_is_the_closed_form_in_its_lobes():
     growth = np.cos(TURN) ** 2 + ratio * np.sin(TURN) ** 2
     whole = np.cos(TURN) * np.sin(TURN) / growth**2 * (1.0 - ratio) / (6.0 * (1.0 + ratio))
     assert np.all(far > whole - 1e-3 * whole.max())
-    assert far.max() == pytest.approx(whole.max(), rel=0.2)
 
 
 def test_the_oil_ends():

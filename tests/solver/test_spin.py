@@ -127,18 +127,22 @@ def flooded(problem: ContactProblem, radius: float) -> ContactProblem:
 
 
 def test_the_load_outside_an_ellipse_is_that_of_a_wider_domain():
-    """With zero pressure on the edges the wider domain has a film thicker by 8 %."""
+    """With the far field without spin the wider domain had a film thicker by 7 to 9 %."""
     problem, films = flooded(spinning(0.5, 10.0, 5.0, RATIO), 60.0), []
     for inlet, points in ((10.0, 81), (20.0, 161)):
         box = Domain(x=(-inlet, 0.5 * inlet), y=(-0.6 * inlet, 0.6 * inlet))
         films.append(solved(problem, domain=box, edges="far_field", points=points))
     near, far = (film.film_scaled.central for film in films)
-    assert near == pytest.approx(far, rel=6e-3)
+    scaled, box = ScaledProblem.of(problem), Domain(x=(-10.0, 5.0), y=(-6.0, 6.0))
+    assert near == pytest.approx(far, rel=spin_error(scaled, box))
     assert near > 1.3  # 0.83 with oil out to 8 half-widths
 
 
 def test_the_oil_ends_where_it_is_said_to_end():
-    """A domain of all of the oil, whose edges have no pressure, has the film of a small one."""
+    """A domain of all of the oil, without pressure on its edges, has the film of a small one.
+
+    But for what a square has other than the circle of the same area.
+    """
     problem = flooded(spinning(0.3, 10.0, 5.0, RATIO), 12.0)
     options = Options(error=0.02)
     domain = domain_of(ScaledProblem.of(problem), options)

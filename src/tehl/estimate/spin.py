@@ -17,9 +17,9 @@ of e: 4/3 of ``P = lambda S (1 - D)/(3 (1 + D)) X E / G^2`` without cavitation i
 LEFT_PART, SIDE_PART, FLOATS = 0.1, 0.006, 3.0
 """Error of the film over that part of the load and the width of the gap over the distance of the
 inlet edge, and over S, as the sides are inlets too; and the load outside a thin film, over that of
-the contact, at which it floats so high that it is unknown, by the eighth power: 60 contacts with
-M = 3 to 100, a_y/a_x = 0.4 to 5, S = 0.05 to 1. Domains of twice the size change the film by 0.3 %
-at most up to 1.7, by a quarter at 2.5."""
+the contact, at which it floats so high that it is unknown, by the eighth power: 55 contacts with
+M = 3 to 100, a_y/a_x = 0.4 to 5, S = 0.05 to 1. Domains of twice the size change the film by 0.4 %
+at most up to 1.8, by a quarter at 2.5; there and beyond most do not converge."""
 DOMAIN_PART, LARGEST_BY_SPIN, LEAST_WIDTH = 0.3, 2.5, 0.68
 """Part of the error that the edges leave to it, largest factor on the domain because of it, and
 least width of the gap."""

@@ -167,6 +167,17 @@ def _solve(to_last: Array, diagonal: Array, to_next: Array, source: Array, wet: 
     return f
 
 
+def edges_of(grid: Grid, stretch: float) -> list[tuple[Edge, float | Array, float | Array]]:
+    """Return the nodes of each edge of a grid, with X and ``stretch`` times Y there."""
+    x, y, whole = grid.x, stretch * grid.y, slice(None)
+    edges: list[tuple[Edge, float | Array, float | Array]] = [
+        ((whole, 0), x[0], y),
+        ((whole, -1), x[-1], y),
+        ((-1, whole), x, y[-1]),
+    ]
+    return edges if grid.mirror else [*edges, ((0, whole), x, y[0])]
+
+
 class Edges(Protocol):
     """The oil outside of a grid."""
 
@@ -249,18 +260,10 @@ class FarField:
         gap, stretch = gap_of(groups), groups.ellipticity
         angle, f = angular_pressure(gap)
         squeeze = groups.lambda_bar * angular_squeeze(gap)
-        x, y, whole = grid.x, stretch * grid.y, slice(None)
-        edges: list[tuple[Edge, float | Array, float | Array]] = [
-            ((whole, 0), x[0], y),
-            ((whole, -1), x[-1], y),
-            ((-1, whole), x, y[-1]),
-        ]
-        if not grid.mirror:
-            edges.append(((0, whole), x, y[0]))
         # each edge with 2 lambda r g^2 f and lambda g^2 q / 4 at its nodes
         self.edges: list[tuple[Edge, Array]] = []
         self.squeezed: list[Array] = []
-        for edge, along, across in edges:
+        for edge, along, across in edges_of(grid, stretch):
             at = gap.place(along, across)
             shape = gap.growth(at) ** 2
             wedge = np.interp(at, angle, f) * shape

@@ -23,7 +23,7 @@ from tehl.base.typing import Array, BoolArray
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.spin import flooded_reach, load_per_e_fold, slowing, spin_number
-from tehl.operators.far_field import Edge, Edges, Gap, far_field, gap_of, inlet_approach
+from tehl.operators.far_field import Edge, Edges, Gap, edges_of, far_field, gap_of, inlet_approach
 
 TURNS, RING_STEP, INNERMOST, PER_RAY, MOST_ROUNDS = (32, 128), 0.25, 0.5, 12, 50
 """Nodes over a turn, few at first, step of ln r, radius of the first ring over the least distance
@@ -111,17 +111,11 @@ class FarSpin:
         self, grid: Grid, groups: Groups, motion: tuple[float, float], reach: float
     ) -> None:
         gap, amplitude = gap_of(groups), 2.0 * groups.lambda_bar
-        x, y, whole = grid.x, groups.ellipticity * grid.y, slice(None)
+        x, y = grid.x, groups.ellipticity * grid.y
         nearest = min(float(np.abs(one[[0, -1]]).min()) for one in (x, y))
         f = far_pressure(gap, *motion, (INNERMOST * nearest, max(reach, nearest)))
-        edges: list[tuple[Edge, float | Array, float | Array]] = [
-            ((whole, 0), x[0], y),
-            ((whole, -1), x[-1], y),
-            ((-1, whole), x, y[-1]),
-            ((0, whole), x, y[0]),
-        ]
         self.edges: list[tuple[Edge, Array]] = []
-        for edge, along, across in edges:
+        for edge, along, across in edges_of(grid, groups.ellipticity):
             at, radius = np.mod(np.arctan2(across, along), 2.0 * np.pi), np.hypot(along, across)
             there = f((np.log(radius), at))
             self.edges.append((edge, amplitude * radius * gap.growth(at) ** 2 * there))
@@ -134,10 +128,8 @@ class FarSpin:
         there = f((np.log(radius), np.broadcast_to(angle, radius.shape)))
         there *= 0.5 * weight[:, None] * length * step / groups.ellipticity
         growth = gap.growth(angle)
-        self.rigid, self.weight = (
-            0.5 * growth * radius**2,
-            amplitude * radius**3 * growth**2 * there,
-        )
+        self.rigid = 0.5 * growth * radius**2
+        self.weight = amplitude * radius**3 * growth**2 * there
 
     def set_edges(self, pressure: Array, film: Array) -> None:
         """Set the pressure on the edges for a film, as `FarField.set_edges`."""

@@ -21,8 +21,8 @@ from tehl.estimate.schedule import schedule_of
 from tehl.report.roughness import RESOLVES
 
 LARGEST_BEND = 0.01
-"""What changes in time may be off a straight line within a step by this part of its largest value.
-"""
+"""Part of its largest value by which what changes in time may be off a straight line within a step:
+half of the usual error of a film."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

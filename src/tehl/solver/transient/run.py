@@ -188,8 +188,10 @@ class Run:
         """Return the start on a coarser grid where that is enough for the error, else this one."""
         run, errors = attempt.run, result.errors
         fewer = run.goal.fewer_nodes(run.finest, errors) if result.status.converged else None
-        least = nodes_of_courses(run.hierarchy.scaled, run.finest.grid.domain, tight.target)
-        if fewer is None or fewer[0] < least:
+        if fewer is None:
+            return attempt, result
+        domain = run.finest.grid.domain
+        if fewer[0] < nodes_of_courses(run.hierarchy.scaled, domain, tight.target):
             return attempt, result
         order = run.hierarchy.options.wedge_order
         stated = tight.on_points(*fewer).model_copy(update={"wedge_order": order})
