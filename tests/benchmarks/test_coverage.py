@@ -42,7 +42,7 @@ def test_a_light_contact_is_solved_and_judged():
 @pytest.mark.slow
 def test_the_hint_of_a_contact_that_fails_is_followed():
     # the grid planned for it is followed by a finer one, for which there is no time
-    found = row((7, 1, 1e-3, False, True))
+    found = row((7, 3, 1e-3, False, True))
     assert (found["cause"], found["followed"]) == ("error_not_reached", "converged")
     stuck = found | {"cause": "stalled", "followed": "stalled"}
     table = hints([found, stuck])

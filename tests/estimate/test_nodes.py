@@ -11,14 +11,19 @@ from tehl.contact.transient import Transient
 from tehl.estimate.domain import domain_of, far_field_error
 from tehl.estimate.duration import bend_between
 from tehl.estimate.nodes import (
+    ENOUGH_LINES,
     EXPECTED_BAR_MARGIN,
     FAVOURED,
     FEWEST_LINES,
     LIMITED_RATIO,
+    LINES_OF_SCARCE,
     LONGEST_CELL,
     WAVE_NODES,
+    _left_to_the_mesh,
     is_thinnest_at_exit,
+    lines_bar,
     planned,
+    side_bar,
 )
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
@@ -45,6 +50,8 @@ def test_a_slender_flooded_contact_is_planned_without_a_margin(
     [
         (1000.0, 8.0, 12.0, 0.25),  # thinnest at the exit
         (30000.0, 8.0, 12.0, 1.0),  # at the sides, as the load is heavy,
+        (75000.0, 4.8, 12.0, 2.0),
+        (8700.0, 1.5, 1.0, 2.0),
         (1000.0, 8.0, 4.0, 0.5),  # or the contact less slender
         (100.0, 30.0, 12.0, 0.5),  # thick
         (450.0, 2.0, 1.0, 2.0),
@@ -82,6 +89,25 @@ def test_the_cells_of_a_wide_contact_are_not_much_longer_along_the_entrainment(
     scaled = ScaledProblem.of(type(problem).model_validate(tables))
     ny, nx = planned(scaled, Options(error=0.01)).shape
     assert FEWEST_LINES <= (ny - 1) / (nx - 1) / scaled.groups.ellipticity <= LONGEST_CELL
+
+
+@pytest.mark.parametrize("radius_ratio", [1.0, 3.0, 12.0])
+@pytest.mark.parametrize("load", [3e3, 1e4, 1e5])
+@pytest.mark.parametrize("ratio", [None, 1.0])
+def test_lines_leave_no_more_of_the_error_than_they_may(
+    load: float, radius_ratio: float, ratio: float | None
+) -> None:
+    """With more a heavy contact is solved on another grid after it, with all of its coarse ones."""
+    problem = moes_contact(load, 3.0, radius_ratio=radius_ratio)
+    problem = problem.model_copy(update={"supply": Supply(ratio=ratio) if ratio else None})
+    scaled, options = ScaledProblem.of(problem), settled(problem, Options(error=0.01))
+    domain, (ny, nx) = domain_of(scaled, options), planned(scaled, options).shape
+    left = _left_to_the_mesh(scaled.entering, domain, 0.01)
+    if radius_ratio == 1.0:
+        assert side_bar(scaled, domain, ny) <= left
+    elif not is_thinnest_at_exit(scaled):
+        assert lines_bar(scaled, domain, ny) <= (LINES_OF_SCARCE if ratio else ENOUGH_LINES) * left
+    assert ny <= 2 * nx - 1
 
 
 def test_asperities_need_more_lines_than_their_film() -> None:

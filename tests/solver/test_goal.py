@@ -324,6 +324,7 @@ def test_the_iteration_may_keep_what_the_other_errors_leave(minimum: float, spar
     goal = Goal(ScaledProblem.of(moes_contact(400.0, 1.0)), Options(error=0.01))
     assert goal.spare(errors(0.001, minimum)) == pytest.approx(spare)
     assert goal.spare(None) == 0.0
+    assert goal.spare(errors(0.001, minimum)) <= goal.most_spare
 
 
 @pytest.mark.parametrize(

@@ -55,12 +55,17 @@ to it the minimum of an outer ring (M = 8,058, a_y/a_x = 5.4) errs by 5 % with a
 lines just beyond the ratio, three contacts with 1.7 to 2.8 times it by less than 0.1 %; beyond that
 supply five of eleven with 1.3 to 2.2 times the ratio err by 0.9 to 2.4 %, the others by less than
 0.3 %."""
-LINES_BAR, ENOUGH_LINES = 0.2, 1.5
+LINES_BAR, ENOUGH_LINES = 0.2, 1.4
 """Factor of `lines_bar`, within a factor of two for 20 contacts with M = 500 to 31,000; and that
-bar over the error to leave from which as many lines as columns are planned."""
-LINES_OF_SCARCE, SCARCE_AT_SIDE = 0.7, 0.8
+bar over the error to leave from which more lines are planned: on as many as columns 29 of 32
+flooded contacts of machines with more of it need another grid, and 4 of 18 with less."""
+ENOUGH_DOUBLE = 0.9
+"""`side_bar` of twice as many lines as columns over the error to leave from which more columns are
+planned: of 13 circles with more of it 10 need them, and none of 36 with less."""
+LINES_OF_SCARCE, SCARCE_AT_SIDE = 0.65, 0.8
 """`ENOUGH_LINES` and `LEAST_AT_SIDE` of slender contacts with scarce oil: of ten of them (M = 500
-to 6,300) the minimum at a side errs by 0.1 to 2 bars on as many lines as columns."""
+to 6,300) the minimum at a side errs by 0.1 to 2 bars on as many lines as columns. Of machines with
+more of the first 7 of 11 need another grid, and none of 6 with less."""
 LEAST_AT_SIDE = 0.4
 """Least bar of a flooded minimum film at the sides over `lines_bar`: of 5 circles (M = 404 to 673,
 L = 2 to 4) it errs by 0.2 to 0.4 of it, and by up to 4 bars without."""
@@ -296,8 +301,8 @@ def _third_order_points(
     most = left if has_margin else EXPECTED_BAR_MARGIN * left
     enough = (n for n in FAVOURED if n > least and third_order_bar(scaled, domain, n) <= most)
     grids = [(n, _lines(scaled, domain, n, sides * left)) for n in enough]
-    grids = grids or [(FAVOURED[-1], FAVOURED[-1])]
-    return grids[0] if has_margin else min(grids, key=math.prod)
+    known = [(n, lines) for n, lines in grids if lines] or [(FAVOURED[-1], FAVOURED[-1])]
+    return known[0] if has_margin else min(known, key=math.prod)
 
 
 def _wide_or_turned_points(
@@ -328,20 +333,22 @@ def most_lines(ratio: float) -> float:
     return min(MOST_LINES, LONGEST_CELL * ratio)
 
 
-def _lines(scaled: ScaledProblem, domain: Domain, nodes: int, left: float) -> int:
+def _lines(scaled: ScaledProblem, domain: Domain, nodes: int, left: float) -> int | None:
     """Return the nodes along y for an error bar of the minimum film: a part of ``nodes``, or twice.
 
-    ``nodes`` are those along x.
+    ``nodes`` are those along x. None if no number of lines is enough.
     """
-    quarter, half = ((nodes - 1) // part + 1 for part in (4, 2))
+    quarter, half, double = (nodes - 1) // 4 + 1, (nodes - 1) // 2 + 1, 2 * nodes - 1
     if is_thinnest_at_exit(scaled) and quarter > LEAST_QUARTER:
         return quarter
-    is_slender = scaled.groups.ellipticity >= SLENDER_RATIO_OF_NODES
-    enough = LINES_OF_SCARCE if scaled.problem.supply is not None else ENOUGH_LINES
-    if is_slender and lines_bar(scaled, domain, half) <= enough * left:
-        return half
-    is_enough = is_slender or side_bar(scaled, domain, nodes) <= left
-    return nodes if is_enough else 2 * nodes - 1
+    if scaled.groups.ellipticity < SLENDER_RATIO_OF_NODES:
+        fewest = nodes if side_bar(scaled, domain, nodes) <= left else double
+        return fewest if side_bar(scaled, domain, double) <= ENOUGH_DOUBLE * left else None
+    starved, rough = scaled.problem.supply is not None, scaled.problem.asperities is not None
+    most = (LINES_OF_SCARCE if starved else ENOUGH_LINES) * left
+    # asperities that scarce oil leaves to carry load hold the sides apart
+    lines, last = ((half,), nodes) if starved and rough else ((half, nodes, double), None)
+    return next((one for one in lines if lines_bar(scaled, domain, one) <= most), last)
 
 
 def is_thinnest_at_exit(scaled: ScaledProblem) -> bool:

@@ -66,6 +66,8 @@ class CoarsestSolver:
         self.widths = grid.widths
         if grid.wraps:  # its last line is not an unknown: the first one has all of its width
             self.widths = np.append(2.0 * self.widths[:1], [*self.widths[1:-1], 0.0])
+        self.area = np.repeat(self.widths * grid.dx, grid.nx)
+        self.modes = np.repeat(equations.balances.modes, grid.nx, axis=1)
         self.last: Factored | None = None
 
     def step(self) -> None:
@@ -159,9 +161,8 @@ class CoarsestSolver:
             residual=residual_of(level).ravel(),
             influence=self.influence,
             frozen=level.smoother.frozen.ravel(),
-            area=np.repeat(self.widths * level.grid.dx, level.grid.nx),
-            lift=np.repeat(level.equations.balances.modes, level.grid.nx, axis=1)
-            * (1.0 if answer is None else answer.lift.ravel()),
+            area=self.area,
+            lift=self.modes if answer is None else self.modes * answer.lift.ravel(),
             missing=level.missing(),
             yielding=(0.0 if answer is None else answer.stiffness) - level.outside_slope,
             nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),

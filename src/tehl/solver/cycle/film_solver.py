@@ -241,13 +241,14 @@ class FilmSolver(GridIteration):
         )
 
     def reached_before(self, *, last: bool = False) -> tuple[tuple[int, int], float] | None:
-        """Return nodes and error bar of the finest grid that converged before the last one.
+        """Return nodes and error bar of the finest grid with a film before the last one.
 
         The ``last`` one counts too if the solve ended before the next grid.
         """
         for number in range(len(self.traces) - (1 if last else 2), GRIDS_WITHOUT_BARS - 1, -1):
             trace, level = self.traces[number], self.levels[number]
-            if not trace.reports or not self._is_acceptable(trace):
+            positive = level.share.bounds_film or trace.minimum.values[-1] > level.equations.floor
+            if not (trace.reports and positive and self._is_acceptable(trace)):
                 continue
             known = self.traces[: number + 1]
             errors = estimated_errors(level, known, self.roughness, self.hierarchy)

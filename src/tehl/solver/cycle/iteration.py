@@ -174,9 +174,12 @@ class GridIteration:
         if not finest:
             done = film_converged(trace, coarser) and temperature_converged(trace, coarser)
             return done or stalled(trace, self.coupling.patience)
-        spare = self.roughness.spare(self.goal.spare(self.errors()))
-        negligible = max(self._negligible(), spare)
-        trace.criteria = replace(trace.criteria, negligible=negligible)
+        self._accept(trace, self.goal.most_spare)
+        if not (fails or must_stop(trace, coarser, self.options)):
+            return (
+                False  # nor would it with what the estimates leave, which cost a tenth of a cycle
+            )
+        self._accept(trace, self.goal.spare(self.errors()))
         done = self.balance.is_kept and must_stop(trace, coarser, self.options)
         if fails and not done and self.balance.is_kept:
             doubtful = trace.doubted()
@@ -184,6 +187,11 @@ class GridIteration:
                 self.traces[-1] = doubtful
         done = done and not self.awaits_oil()
         return done or fails
+
+    def _accept(self, trace: GridTrace, spare: float) -> None:
+        """Let the iteration error of the finest grid be what the goal leaves, or is negligible."""
+        negligible = max(self._negligible(), self.roughness.spare(spare))
+        trace.criteria = replace(trace.criteria, negligible=negligible)
 
     def awaits_oil(self) -> bool:
         """Return whether the error to reach is exceeded by that of the oil balance alone."""

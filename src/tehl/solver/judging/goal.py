@@ -114,6 +114,11 @@ class Goal:
         """Relative iteration error of the film that is always accepted [-]."""
         return NEGLIGIBLE_ITERATION_ERROR * self.target if self.is_open else 0.0
 
+    @property
+    def most_spare(self) -> float:
+        """The most that `spare` returns [-]."""
+        return MOST_SPARE * self.target if self.is_open else 0.0
+
     def spare(self, errors: ErrorEstimate | None) -> float:
         """Return the relative iteration error that is accepted on the finest grid [-].
 
@@ -127,8 +132,7 @@ class Goal:
         others = errors.central - errors.iteration_central
         if errors.minimum_has_limit and not self.of_central:
             others = max(others, errors.minimum - errors.iteration_minimum)
-        target = self.target
-        return min(SPARE_PART * (target - others), MOST_SPARE * target)
+        return min(SPARE_PART * (self.target - others), self.most_spare)
 
     def fitting(self, plan: Options) -> Options:
         """Return options of the planned grid, halved until it fits into the memory."""
