@@ -57,7 +57,7 @@ supply five of eleven with 1.3 to 2.2 times the ratio err by 0.9 to 2.4 %, the o
 0.3 %."""
 LINES_BAR, ENOUGH_LINES = 0.2, 1.4
 """Factor of `lines_bar`, within a factor of two for 20 contacts with M = 500 to 31,000; and that
-bar over the error to leave from which more lines are planned: on as many as columns 29 of 32
+bar over the error to leave from which more lines are planned: where lines equal columns 29 of 32
 flooded contacts of machines with more of it need another grid, and 4 of 18 with less."""
 ENOUGH_DOUBLE = 0.9
 """`side_bar` of twice as many lines as columns over the error to leave from which more columns are
