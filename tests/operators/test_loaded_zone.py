@@ -10,6 +10,7 @@ from tehl.operators.loaded_zone import (
     RADIUS,
     beside,
     contact_mean,
+    cut_error,
     is_inside,
     wet_part,
     zone_of,
@@ -30,6 +31,22 @@ def test_the_sum_over_the_zone_is_of_second_order(skew):
     coarse, fine = (abs(disc(points, skew=skew) - exact) for points in (41, 161))
     assert coarse < 2e-3 * exact
     assert fine < coarse / 4.0
+
+
+@pytest.mark.parametrize("film", [3.0, 5.0])
+@pytest.mark.parametrize(("mesh", "most"), [(2.5, 1.0), (1.25, 1.0), (0.6, 1.0), (0.3, 0.3)])
+def test_cells_that_the_edge_of_the_zone_cuts_err_by_no_more_than_they_are_said_to(
+    film: float, mesh: float, most: float
+) -> None:
+    exact, half = 2.0 * np.pi * np.log(1.0 + 0.5 * RADIUS**2 / film), 20.0 * mesh
+    parts = []
+    for shift in np.linspace(0.0, mesh, 7):
+        ends = (shift - half, shift + half)
+        grid = Grid(nx=41, ny=41, domain=Domain(x=ends, y=(-half, half)), mirror=False)
+        rate = 1.0 / (film + 0.5 * (grid.x**2 + grid.y[:, None] ** 2))
+        found = mesh**2 * (zone_part(grid.x, grid.y) * rate).sum()
+        parts.append(abs(found / exact - 1.0) / cut_error(grid))
+    assert max(parts) <= most
 
 
 def test_half_a_symmetric_domain_has_the_same_parts():

@@ -1,6 +1,7 @@
 """Likely causes of an iteration that diverged or stalled."""
 
 from types import SimpleNamespace
+from unittest.mock import Mock
 
 import pytest
 
@@ -141,10 +142,14 @@ def test_the_status_of_a_diverged_run_has_the_likely_cause_and_its_hint():
 
 
 @pytest.mark.parametrize(
-    ("kelvin", "words"),
-    [(0.0, "the residual is 2.0e-03"), (5.0, "the temperature still changes by 5 K per cycle")],
+    ("kelvin", "heats", "words"),
+    [
+        (0.0, True, "the residual is 2.0e-03"),
+        (5.0, True, "the temperature still changes by 5 K per cycle"),
+        (5.0, False, "the residual is 2.0e-03"),  # a film that thins while its sliding is raised
+    ],
 )
-def test_what_has_not_converged_is_named(kelvin, words):
+def test_what_has_not_converged_is_named(kelvin, heats, words):
     report = CycleReport(
         **{"points": (65, 65), "cycle": 9, "residual": 2e-3, "change": 1e-3, "load_error": 1e-8},
         **{"film_central": 1.0, "film_minimum": 0.5, "smoother": "fast"},
@@ -154,5 +159,7 @@ def test_what_has_not_converged_is_named(kelvin, words):
         options=Options(accuracy="tight", max_cycles=1),
         traces=[SimpleNamespace(reports=[report])],
         strategy=SimpleNamespace(patience=1),
+        hierarchy=Mock(),
     )
+    run.hierarchy.scaled.problem.thermal = Mock() if heats else None
     assert not_reached(run).message.startswith(f"After 1 cycle on 65 x 65 nodes {words}")

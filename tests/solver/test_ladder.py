@@ -209,6 +209,19 @@ def test_a_grid_is_not_too_coarse_where_cycles_lead_away_or_a_coarser_one_has_a_
     assert FilmSolver.leads_away(run) is leads
 
 
+@pytest.mark.parametrize(("minimum", "found"), [(1e-3, ((257, 65), 0.01)), (-1e-3, None)])
+def test_a_grid_whose_film_is_not_positive_has_no_error_to_fall_back_on(
+    monkeypatch: pytest.MonkeyPatch, minimum: float, found: object
+) -> None:
+    """Of a tilted roller (M = 15) the hint named an error at which its film is negative too."""
+    level = Mock(share=Mock(bounds_film=False), equations=Mock(floor=1e-5))
+    level.grid.points = (257, 65)
+    traces = [Mock(reports=[Mock()], minimum=Mock(values=[minimum])) for _ in range(4)]
+    errors = Mock(return_value=Mock(film=Mock(return_value=0.01)))
+    monkeypatch.setattr("tehl.solver.cycle.film_solver.estimated_errors", errors)
+    assert FilmSolver.reached_before(Mock(traces=traces, levels=[level] * 4)) == found
+
+
 @pytest.mark.parametrize(("kelvins", "starts"), [(39.0, True), (LARGEST_KELVIN_STEP, False)])
 def test_no_grid_starts_from_a_film_whose_heat_runs_away(kelvins: float, starts: bool) -> None:
     """A turned ellipse (M = 1,611) heated by 753 K on 321 lines: 641 took half of all its time."""

@@ -18,6 +18,12 @@ RADIUS = 2.0
 STRIPS = 4
 """Strips per cell across y that the edge of the zone crosses as straight lines along y."""
 
+CUT_ERROR = 0.012
+"""Largest relative error of an integral over the zone whose edge cuts cells, over the sum of the
+squares of their lengths: of 1 / (H_0 + r^2 / 2), the shear rate of a thick film, with H_0 = 3 and 5
+and cells of 0.6 to 2.5 half-widths. The traction of one (M = 3.7, a_y/a_x = 10.6) on cells of
+2.5 x 3.7 half-widths errs by 1.3 % and has had a bar of 0.7 %."""
+
 
 @lru_cache(maxsize=16)
 def zone_of(grid: Grid, skew: float = 0.0) -> Array:
@@ -29,6 +35,12 @@ def zone_of(grid: Grid, skew: float = 0.0) -> Array:
         As of `zone_part`.
     """
     return zone_part(grid.x, grid.y, skew=skew)
+
+
+def cut_error(grid: Grid) -> float:
+    """Return the relative error of an integral over the zone by cells that its edge cuts [-]."""
+    across = 0.0 if grid.ny == 1 or grid.is_closed else grid.dy
+    return CUT_ERROR * (grid.dx**2 + across**2)
 
 
 def zone_part(x: Array, y: Array, radius: float = RADIUS, skew: float = 0.0) -> Array:

@@ -81,7 +81,8 @@ def not_reached(run: FilmSolver) -> Status:
         else "the film still changes by more than a third of its discretisation error"
     )
     found = f"the {worst} is {numbers[worst]:.1e}; {wanted}"
-    if last.temperature_change > temperature_scale(last) * numbers[worst]:
+    heats = run.hierarchy.scaled.problem.thermal is not None
+    if heats and last.temperature_change > temperature_scale(last) * numbers[worst]:
         found = f"the temperature still changes by {last.temperature_change:.2g} K per cycle"
     message = (
         f"After {len(reports)} cycle{'s' * (len(reports) > 1)} on {grid_size(last.points)} {found}."

@@ -12,7 +12,7 @@ from tehl.estimate.spin import sliding_field, slowing
 from tehl.operators.dry import dry_pressure
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import stress_unit
-from tehl.operators.loaded_zone import beside, contact_mean, is_inside, wet_part, zone_of
+from tehl.operators.loaded_zone import beside, contact_mean, cut_error, is_inside, wet_part, zone_of
 from tehl.operators.upstream import Lines, rolling
 from tehl.post.heat import Rises, lagrange_weights
 from tehl.post.roughness import ripples
@@ -82,7 +82,8 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
 def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
     """Return traction and moment of the sliding of a contact, those that there are [-].
 
-    The ``_tail`` of each is the part of it that the zone may have beyond the sides of the grid.
+    The ``_tail`` of each is the part of it that the zone may have beyond the sides of the grid, and
+    the error of cells that its edge cuts.
     """
     found = {}
     for name, (part, speed) in _parts(scaled).items():
@@ -93,7 +94,8 @@ def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
                 wet * zone_of(level.grid, scaled.groups.skew)
             )
             if inside:  # not if all oil is cavitated
-                found[f"{name}_tail"] = abs(beside(level.grid, wet, scaled.groups.skew) / inside)
+                outside = abs(beside(level.grid, wet, scaled.groups.skew) / inside)
+                found[f"{name}_tail"] = outside + cut_error(level.grid)
     return found
 
 
