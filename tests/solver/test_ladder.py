@@ -217,9 +217,11 @@ def test_a_grid_whose_film_is_not_positive_has_no_error_to_fall_back_on(
     level = Mock(share=Mock(bounds_film=False), equations=Mock(floor=1e-5))
     level.grid.points = (257, 65)
     traces = [Mock(reports=[Mock()], minimum=Mock(values=[minimum])) for _ in range(4)]
+    traces.append(Mock(reports=[], minimum=Mock(values=[])))  # it diverged before its first cycle
     errors = Mock(return_value=Mock(film=Mock(return_value=0.01)))
     monkeypatch.setattr("tehl.solver.cycle.film_solver.estimated_errors", errors)
-    assert FilmSolver.reached_before(Mock(traces=traces, levels=[level] * 4)) == found
+    run = Mock(traces=traces, levels=[level] * 5)
+    assert FilmSolver.reached_before(run, last=True) == found
 
 
 @pytest.mark.parametrize(("kelvins", "starts"), [(39.0, True), (LARGEST_KELVIN_STEP, False)])

@@ -247,8 +247,9 @@ class FilmSolver(GridIteration):
         """
         for number in range(len(self.traces) - (1 if last else 2), GRIDS_WITHOUT_BARS - 1, -1):
             trace, level = self.traces[number], self.levels[number]
-            positive = level.share.bounds_film or trace.minimum.values[-1] > level.equations.floor
-            if not (trace.reports and positive and self._is_acceptable(trace)):
+            if not trace.reports or not self._is_acceptable(trace):
+                continue
+            if not level.share.bounds_film and trace.minimum.values[-1] <= level.equations.floor:
                 continue
             known = self.traces[: number + 1]
             errors = estimated_errors(level, known, self.roughness, self.hierarchy)
