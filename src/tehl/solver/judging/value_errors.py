@@ -59,7 +59,7 @@ def further_errors(
     found = {}
     for name, last in traces[-1].measured.items():
         values = [one.measured[name] for one in traces[-3:] if name in one.measured]
-        if name in ("spike", "excess", *FILM) or name.endswith("_tail"):
+        if name in ("spike", "excess", "narrow", *FILM) or name.endswith("_tail"):
             continue
         if len(values) < 2 or last == 0.0:
             continue
@@ -159,7 +159,8 @@ def _spike_reach(traces: list[GridTrace], errors: Mapping[str, float]) -> tuple[
     if len(known) < 2 or largest[-1] == 0.0:  # asperities alone carry a dry contact
         return True, 0.0
     change = largest[-1] - largest[-2]
-    reach = spike_reach(known[-1]["spike"], excess) / largest[-1] - 1.0
+    spike, grown = known[-1]["spike"], known[-1].get("narrow", 0.0)
+    reach = max(spike_reach(spike, excess), spike + grown) / largest[-1] - 1.0
     grows = change > LARGE_GROWTH * largest[-1] and not slows(largest, SECOND_ORDER)
     return not grows and reach <= errors.get("pressure_max", 0.0), reach
 
