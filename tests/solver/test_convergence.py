@@ -41,6 +41,7 @@ from tehl.solver.judging.grid_errors import (
     error_estimate,
     extrapolated_bars,
 )
+from tehl.solver.judging.measures import _nodes_across
 from tehl.solver.judging.value_errors import UNEVEN, further_errors
 from tehl.solver.physics.lag import LARGEST_LOG_STEP, Lag, damped
 
@@ -364,6 +365,16 @@ def test_a_stress_that_follows_an_unresolved_spike_may_change_by_several_times_i
     found = error_estimate(spiky(measured), FilmTraits(order=2))
     assert not found.spike_resolved
     assert 0.04 < found.bars["traction_mid_film"] < 0.08
+
+
+@pytest.mark.parametrize(
+    ("row", "nodes"),
+    [([0, 0, 4, 0], 1), ([1, 2, 4, 3, 2], 4), ([4, 3, 1, 3], 2), ([3, 1, 2, 4], 2), ([4, 4], 2)],
+)
+def test_a_spike_is_as_wide_as_the_nodes_with_half_of_its_excess(
+    row: list[float], nodes: int
+) -> None:
+    assert _nodes_across(np.array([[0.0] * len(row), row])) == nodes
 
 
 @pytest.mark.parametrize(("narrow", "resolved"), [(0.0, True), (0.155, False)])

@@ -90,15 +90,33 @@ def test_the_film_is_of_second_order_and_the_minimum_converges():
     assert errors[1] / errors[2] == pytest.approx(4.0, rel=0.15)
 
 
-@pytest.mark.parametrize("load", [85.0, 152.0, 181.0, 213.0])
-def test_the_bar_of_a_minimum_holds_where_few_nodes_resolve_its_dip(load: float) -> None:
-    """Minima on 257 nodes erred by up to 4.5 %, beside a bar of 0.7 %."""
-    coarse, fine = (
-        tehl.solve(line(load, 6.0), Options(points=(n, 1), extrapolate=True, wedge_order=3))
-        for n in (257, 2049)
+@pytest.mark.parametrize(("load", "speed"), [(37.0, 7.0), (181.0, 4.7), (200.0, 5.6)])
+def test_the_bar_of_a_minimum_holds_where_grids_agree_by_chance(load: float, speed: float) -> None:
+    """Bars of the grids alone, 0.27 to 0.63 %, are exceeded 1.4 to 2.1 times."""
+    found, judge = (tehl.solve(line(load, speed), Options(error=error)) for error in (0.02, 0.001))
+    off = abs(found.film_scaled.minimum / judge.film_scaled.minimum - 1.0)
+    assert off + judge.errors.minimum <= found.errors.minimum <= 0.02
+
+
+@pytest.mark.parametrize(("load", "speed"), [(5.0, 12.0), (8.0, 18.0)])
+def test_the_bar_holds_what_oil_that_thins_upstream_of_the_domain_changes(
+    load: float, speed: float
+) -> None:
+    """By 0.24 and 0.3 %; Newtonian oil would change the film by 0.1 and 0.06 %."""
+    lubricant = line(load, speed).lubricant.model_dump(exclude_none=True)
+    lubricant["shear"] = {"law": "limiting", "slope": 0.0854}
+    problem = line(load, speed, contact={"slide_roll_ratio": 1.9}, lubricant=lubricant)
+    found = tehl.solve(problem, Options(error=0.02))
+    x = 4.0 * found.scaled.x[[0, -1]]
+    wider = Options(
+        points=(16 * (found.scaled.x.size - 1) + 1, 1),
+        domain=Domain(x=tuple(x), y=problem.shape.sides),
+        edges="far_field",
+        extrapolate=True,
+        wedge_order=3,
     )
-    off = abs(coarse.film_scaled.minimum / fine.film_scaled.minimum - 1.0)
-    assert off <= coarse.errors.minimum + fine.errors.minimum < 0.1
+    off = abs(found.film_scaled.central / tehl.solve(problem, wider).film_scaled.central - 1.0)
+    assert off <= found.errors.domain <= 0.005
 
 
 def test_a_rigid_line_is_that_of_martin():

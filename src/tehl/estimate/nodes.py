@@ -57,15 +57,17 @@ supply five of eleven with 1.3 to 2.2 times the ratio err by 0.9 to 2.4 %, the o
 0.3 %."""
 LINES_BAR, ENOUGH_LINES = 0.2, 1.4
 """Factor of `lines_bar`, within a factor of two for 20 contacts with M = 500 to 31,000; and that
-bar over the error to leave from which more lines are planned: where lines equal columns 29 of 32
-flooded contacts of machines with more of it need another grid, and 4 of 18 with less."""
+bar over the error to leave from which more lines are planned: on square grids 29 of 32 flooded
+contacts with more of it need another one, and 4 of 18 with less."""
 ENOUGH_DOUBLE = 0.9
 """`side_bar` of twice as many lines as columns over the error to leave from which more columns are
 planned: of 13 circles with more of it 10 need them, and none of 36 with less."""
+MORE_COLUMNS = 1.5
+"""Most intervals along x over the fewest by `third_order_bar` that are planned for more lines. For
+small L `lines_bar` asks for far more than are needed (M = 1e5, L = 0.5: 18 times the nodes)."""
 LINES_OF_SCARCE, SCARCE_AT_SIDE = 0.65, 0.8
-"""`ENOUGH_LINES` and `LEAST_AT_SIDE` of slender contacts with scarce oil: of ten of them (M = 500
-to 6,300) the minimum at a side errs by 0.1 to 2 bars on as many lines as columns. Of machines with
-more of the first 7 of 11 need another grid, and none of 6 with less."""
+"""`ENOUGH_LINES` and `LEAST_AT_SIDE` of slender contacts with scarce oil: on square grids 7 of 11
+with more of the first need another one, none of 6 with less; minima err by 0.1 to 2 bars."""
 LEAST_AT_SIDE = 0.4
 """Least bar of a flooded minimum film at the sides over `lines_bar`: of 5 circles (M = 404 to 673,
 L = 2 to 4) it errs by 0.2 to 0.4 of it, and by up to 4 bars without."""
@@ -289,8 +291,7 @@ def _third_order_points(
     """Return nodes (nx, ny) with a wedge of third order for an error of the film.
 
     They are more than ``least`` along x. Films at the sides of slender contacts and circles may err
-    by ``sides`` times as much. Without a margin the fewest are taken, with more along x
-    if half as many along y are then enough.
+    by ``sides`` times as much. Without a margin the fewest in all are taken.
     """
     left = _left_to_the_mesh(scaled.entering, domain, error - entry_error(scaled, domain))
     groups = scaled.groups
@@ -299,10 +300,13 @@ def _third_order_points(
     has_margin = groups.ellipticity < LIMITED_RATIO or groups.L > LIMITED_SPEED
     has_margin = has_margin or scaled.problem.supply is not None
     most = left if has_margin else EXPECTED_BAR_MARGIN * left
-    enough = (n for n in FAVOURED if n > least and third_order_bar(scaled, domain, n) <= most)
-    grids = [(n, _lines(scaled, domain, n, sides * left)) for n in enough]
-    known = [(n, lines) for n, lines in grids if lines] or [(FAVOURED[-1], FAVOURED[-1])]
-    return known[0] if has_margin else min(known, key=math.prod)
+    enough = [n for n in FAVOURED if n > least and third_order_bar(scaled, domain, n) <= most]
+    fewest = enough[0] if enough else FAVOURED[-1]
+    near = math.inf if is_thinnest_at_exit(scaled) else MORE_COLUMNS * (fewest - 1)
+    lines = ((n, _lines(scaled, domain, n, sides * left)) for n in enough if n - 1 <= near)
+    usual = fewest if groups.ellipticity >= SLENDER_RATIO_OF_NODES else 2 * fewest - 1
+    grids = [(n, rows) for n, rows in lines if rows] or [(fewest, usual)]
+    return grids[0] if has_margin else min(grids, key=math.prod)
 
 
 def _wide_or_turned_points(
@@ -339,7 +343,8 @@ def _lines(scaled: ScaledProblem, domain: Domain, nodes: int, left: float) -> in
     ``nodes`` are those along x. None if no number of lines is enough.
     """
     quarter, half, double = (nodes - 1) // 4 + 1, (nodes - 1) // 2 + 1, 2 * nodes - 1
-    if is_thinnest_at_exit(scaled) and quarter > LEAST_QUARTER:
+    at_exit = is_thinnest_at_exit(scaled)
+    if at_exit and quarter > LEAST_QUARTER:
         return quarter
     if scaled.groups.ellipticity < SLENDER_RATIO_OF_NODES:
         fewest = nodes if side_bar(scaled, domain, nodes) <= left else double
@@ -347,7 +352,8 @@ def _lines(scaled: ScaledProblem, domain: Domain, nodes: int, left: float) -> in
     starved, rough = scaled.problem.supply is not None, scaled.problem.asperities is not None
     most = (LINES_OF_SCARCE if starved else ENOUGH_LINES) * left
     # asperities that scarce oil leaves to carry load hold the sides apart
-    lines, last = ((half,), nodes) if starved and rough else ((half, nodes, double), None)
+    is_held = at_exit or (starved and rough)
+    lines, last = ((half,), nodes) if is_held else ((half, nodes, double), None)
     return next((one for one in lines if lines_bar(scaled, domain, one) <= most), last)
 
 

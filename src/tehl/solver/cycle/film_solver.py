@@ -241,7 +241,7 @@ class FilmSolver(GridIteration):
         )
 
     def reached_before(self, *, last: bool = False) -> tuple[tuple[int, int], float] | None:
-        """Return nodes and error bar of the finest grid with a film before the last one.
+        """Return nodes and error bar of the last grid but one that converged to a positive film.
 
         The ``last`` one counts too if the solve ended before the next grid.
         """

@@ -176,9 +176,7 @@ class GridIteration:
             return done or stalled(trace, self.coupling.patience)
         self._accept(trace, self.goal.most_spare)
         if not (fails or must_stop(trace, coarser, self.options)):
-            return (
-                False  # nor would it with what the estimates leave, which cost a tenth of a cycle
-            )
+            return False  # nor would it with what is left, whose estimate costs a tenth of a cycle
         self._accept(trace, self.goal.spare(self.errors()))
         done = self.balance.is_kept and must_stop(trace, coarser, self.options)
         if fails and not done and self.balance.is_kept:

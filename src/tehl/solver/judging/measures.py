@@ -45,8 +45,8 @@ nodes) whose spikes three grids seemed to resolve have 3, and excesses of 0.29 a
 def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
     """Return the values of a converged grid by name.
 
-    ``pressure_max``, ``film_mean`` over the Hertz contact, ``spike`` and its ``excess`` over Hertz
-    [-]; the parts of the load on solids (`tehl.solver.physics.share`) [-]; of a rough contact
+    ``pressure_max``, ``film_mean`` over the Hertz contact, ``spike`` and its ``excess`` over Hertz,
+    also if it is ``narrow`` [-]; the parts of the load on solids (`tehl.solver.physics.share`) [-]; of a rough contact
     ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one ``traction_mid_film`` and
     ``traction_across`` [-], with spin ``drilling_moment`` over load times a_x; of a heated film the
     rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with the names of the powers in
@@ -312,17 +312,18 @@ def _spike(level: Level) -> dict[str, float]:
     """
     behind = level.grid.x > SPIKE_FROM
     pressure = level.film.p[:, behind]
-    above = pressure - dry_pressure(level.grid, level.equations.groups)[:, behind]
+    dry = dry_pressure(level.grid, level.equations.groups)[:, behind]
+    spike, excess = highest_excess(pressure, dry)
+    narrow = excess * (_nodes_across(pressure - dry) <= NODES_OF_NARROW)
+    return {"spike": spike, "excess": excess, "narrow": narrow}
+
+
+def _nodes_across(above: Array) -> int:
+    """Return on how many nodes along x a spike has at least half of its largest excess."""
     row, highest = divmod(int(above.argmax()), above.shape[1])
-    excess = float(above[row, highest])
-    below = np.flatnonzero(~np.pad(above[row] >= 0.5 * excess, 1)) - 1
-    after = int(np.searchsorted(below, highest))
-    is_narrow = below[after] - below[after - 1] - 1 <= NODES_OF_NARROW
-    return {
-        "spike": float(pressure[row, highest]),
-        "excess": excess,
-        "narrow": excess * is_narrow,
-    }
+    lower = np.flatnonzero(~np.pad(above[row] >= 0.5 * above[row, highest], 1)) - 1
+    after = int(np.searchsorted(lower, highest))
+    return int(lower[after] - lower[after - 1] - 1)
 
 
 def highest_excess(pressure: Array, dry: Array) -> tuple[float, float]:
