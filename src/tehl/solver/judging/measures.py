@@ -46,11 +46,11 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     """Return the values of a converged grid by name.
 
     ``pressure_max``, ``film_mean`` over the Hertz contact, ``spike`` and its ``excess`` over Hertz,
-    also if it is ``narrow`` [-]; the parts of the load on solids (`tehl.solver.physics.share`) [-]; of a rough contact
-    ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one ``traction_mid_film`` and
-    ``traction_across`` [-], with spin ``drilling_moment`` over load times a_x; of a heated film the
-    rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with the names of the powers in
-    `tehl.result.fields.HeatBalance` [W].
+    also if it is ``narrow`` [-]; the parts of the load on solids (`tehl.solver.physics.share`) [-];
+    of a rough contact ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one
+    ``traction_mid_film`` and ``traction_across`` [-], with spin ``drilling_moment`` over load times
+    a_x; of a heated film the rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with
+    the names of the powers in `tehl.result.fields.HeatBalance` [W].
 
     Parameters
     ----------
