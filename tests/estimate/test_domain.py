@@ -158,9 +158,9 @@ def test_the_heat_of_the_inlet_upstream_of_a_domain_makes_part_of_the_bar_of_its
 
 def test_a_contact_that_heats_its_inlet_gets_a_longer_inlet_alone():
     scaled = ScaledProblem.of(heated_contact(0.1, sources="auto", entrainment_speed=20.0))
-    least = recommended_domain(scaled.entering, 0.02, near=True)
-    domain = chosen_domain(scaled, 0.02, near=True)
-    assert entry_error(scaled, domain) <= INLET_HEAT_PART * 0.02 < entry_error(scaled, least)
+    least = recommended_domain(scaled.entering, 0.01, near=True)
+    domain = chosen_domain(scaled, 0.01, near=True)
+    assert entry_error(scaled, domain) <= INLET_HEAT_PART * 0.01 < entry_error(scaled, least)
     assert domain.x[0] < 1.2 * least.x[0]
     assert domain.y == least.y
 

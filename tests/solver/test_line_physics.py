@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 import tehl
 from tehl.cli.text import as_text
-from tehl.contact.options import Options
+from tehl.contact.options import Domain, Options
 from tests.solver.test_line import BOX, CITED, line
 
 STEEL = {"young_modulus": 2.0566e11, "poisson_ratio": 0.3} | {
@@ -79,6 +79,36 @@ def test_coarser_grids_of_a_fast_line_are_heated_too():
     assert np.trapezoid(found.scaled.pressure[0], found.scaled.x) == pytest.approx(
         0.5 * math.pi, rel=2e-3
     )
+
+
+def test_the_film_between_heated_eddies_is_within_its_bars():
+    """Heat that flows back at the inlet came upstream by a node per sweep: the film stood still."""
+    problem = tehl.ContactProblem.model_validate(
+        {
+            "contact": {"type": "line", "radius": 0.0776, "moes_load": 6.28, "moes_speed": 5.12}
+            | {"slide_roll_ratio": 0.115},
+            "surface_1": {"material": "glass"},
+            "surface_2": {"material": "silicon-nitride"},
+            "lubricant": {
+                "viscosity": {"law": "roelands", "eta_0": 0.0356, "alpha": 1.5e-8, "gamma": 0.0263}
+                | {"reference_temperature": 366.7},
+                "density": {"law": "dowson-higginson", "rho_0": 880.0, "beta": 6.5e-4},
+                "conductivity": 0.13,
+                "heat_capacity": 2240.0,
+                "temperature": 366.7,
+            },
+            "thermal": {},
+        }
+    )
+    near, films = Domain(x=(-3.935925, 1.789057)), []
+    for cells, x in ((256, near.x), (256, near.x), (512, tuple(2 * edge for edge in near.x))):
+        stated = {"accuracy": "tight"} if films else {}
+        options = {"points": cells + 1, "domain": {"x": x}, "edges": "far_field"} | stated
+        films.append(tehl.solve(problem, Options.model_validate(options)))
+    film, tight, wide = (one.film_scaled.central for one in films)
+    errors = films[0].errors
+    assert abs(film / tight - 1.0) < errors.iteration_central + 1e-4 < 0.005
+    assert 0.3 * errors.domain < abs(tight / wide - 1.0) < errors.domain
 
 
 def test_the_full_source_is_near_that_of_a_line_at_high_speed():

@@ -283,9 +283,10 @@ def test_temperatures_of_a_very_hot_inlet_rest_between_the_layers_of_its_oil():
 
 def test_hot_oil_that_flows_back_comes_to_rest_on_fine_grids():
     """A traction drive, M = 637, L = 17: by whole changes its inlet swings up to 170 K."""
-    found = steady.solve(machines.contact(97, 51)[2], Options())
-    assert found.errors.film() < 0.01
-    rises = [one.temperature_rise for one in found.history if one.points == (641, 321)]
+    found = steady.solve(machines.contact(97, 51)[2], Options(error=0.015))
+    assert found.errors.film() < 0.015
+    finest = found.history[-1].points
+    rises = [one.temperature_rise for one in found.history if one.points == finest]
     assert max(rises) == pytest.approx(92.0, abs=2.0)
 
 

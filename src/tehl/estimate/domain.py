@@ -27,10 +27,9 @@ LARGEST_DOMAIN_FACTOR = 2.5
 """Largest factor on the domain because of the temperature of the bodies."""
 DOMAIN_STEP, ENTRY_PART = 1.05, 0.3
 """Steps of that factor, and part of the error of the domain that it leaves to the oil entering."""
-INLET_HEAT_PART = 0.15
+INLET_HEAT_PART = 0.2
 """Part of it that is left to the heat of the inlet of a point contact, which a longer inlet alone
-makes smaller: 0.3 % of a film within 1 %. With twice that a gear tooth (M = 255, L = 28) needs 321
-nodes along x in place of 129."""
+makes smaller: 0.4 % of a film within 1 %."""
 ELASTIC = 0.1
 """Error by zero pressure on the edges over the square of the width of the gap over the distance of
 the sides (0.05 to 0.08 measured for M = 10 to 100)."""

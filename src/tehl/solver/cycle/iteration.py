@@ -119,10 +119,13 @@ class GridIteration:
         trace.note(*film_extremes(fine))
         for number in range(1, self._most_steps(levels, method) + 1):
             method.begin()
-            trace.add(self._iteration(levels, method.step, number + done), method.touching_share())
+            self._add(trace, self._iteration(levels, method.step, number + done), method)
             if self._is_done(trace, finest=finest):
                 return
             method.combine()
+
+    def _add(self, trace: GridTrace, report: CycleReport, method: Cycles) -> None:
+        trace.add(report, method.touching_share(), rests=self.coupling.rest == "now")
 
     def _visit(self, levels: Sequence[Level]) -> Visit:
         return Visit(
@@ -162,7 +165,7 @@ class GridIteration:
             number = len(trace.reports) + 1
             if number > self.options.max_cycles:
                 return
-            trace.add(self._iteration(levels, method.step, number), method.touching_share())
+            self._add(trace, self._iteration(levels, method.step, number), method)
 
     def _is_done(self, trace: GridTrace, *, finest: bool) -> bool:
         """Return whether the iteration on a grid has converged or stalled."""

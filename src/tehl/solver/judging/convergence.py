@@ -50,6 +50,8 @@ SHARE_ERROR = 2e-3
 twentieth of the least error bar of it, of random and grooved surfaces on 257 nodes 0.04 to 0.14."""
 SHARE_CYCLES = (4, 8)
 """Cycles over which a share that creeps is followed: single nodes change from one to the next."""
+CREEP_CYCLES = 4
+"""The same of a film that small steps change by small and large amounts in turn."""
 RISE_ERROR = 0.005
 """Relative iteration error of the largest rise that is always accepted."""
 LEAST_KELVIN = 0.02
@@ -132,7 +134,8 @@ class Trace:
             least = max(self.least_rate, self.second_rate if len(self.values) == 3 else 0.0)
             rate = min(max(abs(last / before) if before else 0.0, least), largest)
             last = max(abs(last), abs(before)) if self.alternates else last
-        return abs(last) * rate / (1.0 - rate)
+        error = abs(last) * rate / (1.0 - rate)
+        return max(error, self.creep(CREEP_CYCLES)) if self.alternates else error
 
     def swing(self) -> float:
         """Estimate the same of a number that swings about its limit: by the larger change at most.
@@ -204,7 +207,7 @@ class GridTrace:
     ``measured`` has further values after the last cycle (`tehl.solver.judging.measures`), and
     ``outputs`` are the fields to extrapolate. A grid on which the iteration ``diverged`` is not
     compared with others. ``coupled`` says whether the film is heated or thins on this grid.
-    ``columns`` are its nodes along x.
+    ``columns`` are its nodes along x. In the last cycle heat may have ``rested``.
     """
 
     criteria: Criteria = field(default_factory=Criteria)
@@ -218,6 +221,7 @@ class GridTrace:
     outputs: Outputs | None = None
     coupled: bool = False
     columns: int = 0
+    rested: bool = False
 
     def __post_init__(self) -> None:
         known = self.criteria
@@ -236,8 +240,11 @@ class GridTrace:
         self.central.values.append(central)
         self.minimum.values.append(minimum)
 
-    def add(self, report: CycleReport, touching: float = 0.0) -> None:
+    def add(self, report: CycleReport, touching: float = 0.0, *, rests: bool = False) -> None:
         """Append film, temperature rise and the part of the load in contact after a cycle.
+
+        The cycle after one whose heat rests continues that one: its film has met the same heat, and
+        a change that is small for that reason says nothing of what heat has still to change.
 
         Parameters
         ----------
@@ -245,7 +252,15 @@ class GridTrace:
             Of the cycle.
         touching : float
             Part of the load where surfaces touch [-].
+        rests : bool
+            Whether no sweep of the energy equation has followed the cycle.
         """
+        if self.rested:
+            for film in (self.central, self.minimum):
+                film.values.pop()
+        if rests and self.rise.values:
+            self.rise.values.pop()
+        self.rested = rests
         self.reports.append(report)
         self.touching.values.append(touching)
         self.note(report.film_central, report.film_minimum)

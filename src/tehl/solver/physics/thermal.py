@@ -91,13 +91,14 @@ class Coupling:
         self.wedge_order = options.order
         counter_moving = min(scaled.moment.speeds) <= 0.0
         # elsewhere the backflow of the coarser grids is accurate enough
-        flows_back = counter_moving or scaled.problem.has_hot_inlet
+        flows_back = counter_moving or scaled.problem.has_hot_inlet or scaled.groups.shape.as_line
         self.thorough = options.accuracy == "tight" or flows_back
         self.sweeps_left = RAMP if slide_in_steps else 0
         self.lag = Lag(damping if is_coupled else 1.0, heats=scaled.problem.thermal is not None)
         self.state: FilmState | None = None  # on the last level that was started
         self.factors: properties.Factors | None = None
-        self.last, self.skip = (0.0, 0.0), False  # change and rise of the last sweep [K]
+        self.last = 0.0, 0.0  # change and rise of the last sweep [K]
+        self.rest = ""  # "now" if no sweep followed the last cycle, "due" if none follows the next
         # where motion varies: the density is that of the oil, not of its flux
         self.carries_mean = False
 
@@ -127,7 +128,7 @@ class Coupling:
         resolved = fine.share.bounds_film or float(fine.film.h.min()) > least
         if not (finest or coarser is not None or (large and resolved)):
             return False
-        self.skip = False
+        self.rest = ""
         self.lag.begin()
         state = FilmState(
             fine.grid, self.film, self.wedge_order, finest=full, thorough=self.thorough
@@ -202,8 +203,8 @@ class Coupling:
         """
         if self.state is None:
             return 0.0, 0.0
-        if self.skip:
-            self.skip = False
+        if self.rest == "due":
+            self.rest = "now"
             return self.last
         for _ in range(MOST_SWEEPS):
             change = self._sweep(self.state, levels, STRESS_STEPS)
@@ -214,7 +215,8 @@ class Coupling:
         rise = max(float(hottest) - inlet, float(coldest) - inlet, key=abs)
         steady = abs(rise - before) < SMALL_RISE_CHANGE * abs(rise)
         may_skip = self.state.sweeps >= LEAST_SWEEPS and not self.thorough and self.damping == 1.0
-        self.skip = may_skip and steady and change < SMALL_KELVIN_CHANGE * abs(rise)
+        rests = may_skip and steady and change < SMALL_KELVIN_CHANGE * abs(rise)
+        self.rest = "due" if rests else ""
         self.last = change, rise
         return self.last
 
