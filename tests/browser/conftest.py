@@ -145,8 +145,8 @@ def restore(page):
     page.emulate_media(color_scheme="light")
     page.keyboard.press("Escape")
     page.locator(".q-dialog").first.wait_for(state="detached")
-    for note in page.get_by_role("alert").get_by_role("button", name="close").all():
-        note.click()
+    notes = page.get_by_role("alert").get_by_role("button", name="close")
+    notes.evaluate_all("all => all.forEach(one => one.click())")  # some are closing by themselves
     page.get_by_role("tab", name="Film", exact=True).click()
     if case_of(page) != BALL or page.locator(".light.bad").count():
         page.get_by_role("button", name="Templates").click()
