@@ -46,6 +46,14 @@ def test_a_pure_wave_is_found_alone():
     assert vectors(1e-7 * wave(0.45, 30.0)) == [pytest.approx((0.45, 30.0), rel=1e-4)]
 
 
+def test_a_wave_of_a_line_is_found_on_its_row():
+    noise = 0.1 * np.random.default_rng(3).standard_normal((1, X.size))
+    row = np.cos(2.0 * math.pi / 0.36 * X + 0.7)[None] + 0.5 * X**2 + noise
+    (found,) = distinct_waves(X, np.zeros(1), row, is_short)
+    assert 2.0 * math.pi / found.number == pytest.approx(0.36, rel=0.01)
+    assert found.across == 0.0
+
+
 def test_both_waves_of_a_cross_hatch_are_found():
     found = sorted(vectors(wave(0.3, 30.0) + 0.8 * wave(0.3, -30.0)))
     assert sorted(angle for _, angle in found) == pytest.approx([-30.0, 30.0], abs=0.01)

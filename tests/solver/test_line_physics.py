@@ -210,6 +210,14 @@ def test_what_lines_do_not_have_is_refused(tables, why):
         hot(2.0)
 
 
+def test_a_line_with_a_random_profile_has_its_numbers(recwarn):
+    profile = {"type": "random", "rms": "5 nm", "correlation_length": "15 um", "seed": 1}
+    problem = line(20.0, 10.0, surface_1={"material": "steel", "roughness": profile})
+    summary = tehl.solve(problem, Options(points=257, domain=BOX)).summary()
+    assert 0.0 < summary["roughness"]["lambda_central"]
+    assert not [one for one in recwarn if issubclass(one.category, RuntimeWarning)]
+
+
 def test_pictures_show_a_heated_rough_line(tmp_path):
     problem = hot(0.3)
     wave = {"type": "wave", "amplitude": "0.01 um", "wavelength": "0.2 mm"}

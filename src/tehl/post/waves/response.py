@@ -260,7 +260,7 @@ class _Patch:
         return wave if self.counts(wave)[0] >= _TURN else wave._replace(along=0.0)
 
     def points_per_wave(self, wave: WaveVector) -> float:
-        steps = (np.ptp(self.x) / (self.x.size - 1), np.ptp(self.y) / (self.y.size - 1))
+        steps = [np.ptp(axis) / max(axis.size - 1, 1) for axis in (self.x, self.y)]
         phase = max(abs(wave.along) * steps[0], abs(wave.across) * steps[1])
         return float(2.0 * math.pi / phase)
 

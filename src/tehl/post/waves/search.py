@@ -108,7 +108,8 @@ class _Region:
         (ny, nx), (all_x, all_y) = heights.shape, (a.ravel() for a in np.meshgrid(x, y))
         weight = (np.hanning(ny + 2)[1:-1, None] * np.hanning(nx + 2)[1:-1]).ravel()
         powers = [all_x**i * all_y**j for i in range(3) for j in range(3 - i)]
-        step = (float(np.ptp(x)) / (nx - 1), float(np.ptp(y)) / (ny - 1))
+        # a line has one row
+        step = (float(np.ptp(x)) / (nx - 1), float(np.ptp(y)) / max(ny - 1, 1) or 1.0)
         values = heights.ravel() - heights.mean()
         unit = float(np.std(values)) or 1.0
         background = np.stack(powers, axis=1)
@@ -122,7 +123,7 @@ class _Region:
 
     def peak(self, found: Sequence[WaveVector]) -> tuple[float, float] | None:
         """Return the highest peak of the spectrum without waves found, and away from them."""
-        ny, nx = (4 * size for size in self.shape)  # with zeros beyond
+        ny, nx = (4 * size if size > 1 else 1 for size in self.shape)  # with zeros beyond
         matrix = self._columns([(wave.along, wave.across) for wave in found])
         left = self.weight * (self.heights - matrix @ self._solved(matrix))
         spectrum = np.abs(np.fft.rfft2(left.reshape(self.shape), s=(ny, nx)))
