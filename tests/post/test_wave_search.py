@@ -54,6 +54,11 @@ def test_a_wave_of_a_line_is_found_on_its_row():
     assert found.across == 0.0
 
 
+def test_a_single_node_has_no_waves():
+    coarse = np.array([-4.0, 0.0, 4.0])
+    assert distinct_waves(coarse, coarse, np.eye(3), is_short) == []
+
+
 def test_both_waves_of_a_cross_hatch_are_found():
     found = sorted(vectors(wave(0.3, 30.0) + 0.8 * wave(0.3, -30.0)))
     assert sorted(angle for _, angle in found) == pytest.approx([-30.0, 30.0], abs=0.01)

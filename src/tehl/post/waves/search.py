@@ -108,12 +108,12 @@ class _Region:
         (ny, nx), (all_x, all_y) = heights.shape, (a.ravel() for a in np.meshgrid(x, y))
         weight = (np.hanning(ny + 2)[1:-1, None] * np.hanning(nx + 2)[1:-1]).ravel()
         powers = [all_x**i * all_y**j for i in range(3) for j in range(3 - i)]
-        # a line has one row
-        step = (float(np.ptp(x)) / (nx - 1), float(np.ptp(y)) / max(ny - 1, 1) or 1.0)
+        # a line has one row, and a contact on a mesh wider than it one node
+        step_x, step_y = (float(np.ptp(axis)) / max(axis.size - 1, 1) or 1.0 for axis in (x, y))
         values = heights.ravel() - heights.mean()
         unit = float(np.std(values)) or 1.0
         background = np.stack(powers, axis=1)
-        return cls((ny, nx), step, all_x, all_y, weight, background, values / unit)
+        return cls((ny, nx), (step_x, step_y), all_x, all_y, weight, background, values / unit)
 
     @property
     def bins(self) -> Array:
