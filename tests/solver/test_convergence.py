@@ -43,7 +43,12 @@ from tehl.solver.judging.grid_errors import (
     extrapolated_bars,
 )
 from tehl.solver.judging.measures import _nodes_across
-from tehl.solver.judging.value_errors import HEAT_OF_ROLLING, UNEVEN, further_errors
+from tehl.solver.judging.value_errors import (
+    HEAT_OF_ROLLING,
+    UNEVEN,
+    UNRESOLVED_STRESS,
+    further_errors,
+)
 from tehl.solver.physics.lag import LARGEST_LOG_STEP, Lag, damped
 
 
@@ -393,6 +398,14 @@ def test_a_stress_that_follows_an_unresolved_spike_may_change_by_several_times_i
     found = error_estimate(spiky(measured), FilmTraits(order=2))
     assert not found.spike_resolved
     assert 0.04 < found.bars["traction_mid_film"] < 0.08
+
+
+def test_heat_that_rolling_generates_below_an_unresolved_spike_is_hardly_known() -> None:
+    """An ellipse (M = 271): 9 % more on a finer grid, and half of that in either surface."""
+    measured = {"heat_shear": (1.0, 1.001), "heat_surface_1": (0.5, 0.5), "film_rise_max": (9, 9)}
+    found = error_estimate(spiky(measured), FilmTraits(order=2))
+    assert found.bars["heat_shear"] == pytest.approx(UNRESOLVED_STRESS * HEAT_OF_ROLLING)
+    assert found.bars["heat_surface_1"] == pytest.approx(found.bars["heat_shear"], rel=0.01)
 
 
 @pytest.mark.parametrize(

@@ -105,9 +105,7 @@ def limit_bars(
     resolved, reach = _spike_reach(traces, found)
     if not resolved:
         found["pressure_max"] = max(found["pressure_max"], reach)
-        if "heat_shear" in found:
-            least = UNRESOLVED_STRESS * _heat_of_rolling(sliding)
-            found["heat_shear"] = max(found["heat_shear"], least)
+        _raise_heats(found, known, UNRESOLVED_STRESS * _heat_of_rolling(sliding))
     stated = [name for name in STRESSES if name in known]
     friction = math.hypot(*(known.get(name, 0.0) for name in STRESSES[:2]))
     for name in stated:
@@ -156,7 +154,7 @@ def _raise_heats(found: dict[str, float], heats: dict[str, float], least: float)
     # parts of the heat that shear generates, as exactly as the temperatures
     kelvin = LEAST_KELVIN / max(abs(heats.get("film_rise_max", 0.0)), LEAST_KELVIN)
     for name in ("heat_surface_1", "heat_surface_2", "heat_carried_out", "heat_compression"):
-        if name in found:
+        if name in found and "heat_shear" in found:
             shared = CONDUCTED * max(found["heat_shear"], kelvin)
             found[name] = max(found[name], shared * abs(heats["heat_shear"] / heats[name]))
 
