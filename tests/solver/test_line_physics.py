@@ -9,6 +9,7 @@ import pytest
 from pydantic import ValidationError
 
 import tehl
+from benchmarks import any_contacts
 from tehl.cli.text import as_text
 from tehl.contact.options import Domain, Options
 from tests.solver.test_line import BOX, CITED, line
@@ -112,39 +113,16 @@ def test_the_film_between_heated_eddies_is_within_its_bars():
 
 
 def test_heat_that_a_longer_domain_gives_to_the_other_surface_lies_in_the_bars():
-    """Of 16.5 W glass takes 1.32 W, and 0.89 W on twice the domain; the rest goes to steel."""
-    problem = tehl.ContactProblem.model_validate(
-        {
-            "contact": {"type": "line", "radius": 0.0298, "moes_load": 6.27, "moes_speed": 6.01},
-            "surface_1": {"material": "glass"},
-            "surface_2": {"material": "steel"},
-            "lubricant": {
-                "viscosity": {"law": "roelands", "eta_0": 0.156, "alpha": 2.26e-8, "gamma": 0.0536}
-                | {"reference_temperature": 332.9},
-                "density": {"law": "dowson-higginson", "rho_0": 880.0, "beta": 6.5e-4},
-                "conductivity": 0.137,
-                "heat_capacity": 1850.0,
-                "temperature": 332.9,
-            },
-            "thermal": {},
-        }
-    )
-    near, wide = (
-        tehl.solve(
-            problem,
-            Options(
-                points=256 * n + 1,
-                domain=Domain(x=(-3.4 * n, 1.545454 * n)),
-                edges="far_field",
-                extrapolate=True,
-            ),
-        )
-        for n in (1, 2)
-    )
+    """A line (M = 6, L = 6) between glass and steel that rolls: 3 % of its heat go to the other."""
+    problem = any_contacts.contact(525, 49)[2]
+    near = tehl.solve(problem, Options(error=0.02))
+    x = tuple(2.0 * float(edge) for edge in near.scaled.x[[0, -1]])
+    settings = {"points": 2 * near.scaled.x.size - 1, "domain": {"x": x}, "edges": "far_field"}
+    wide = tehl.solve(problem, Options.model_validate(settings | {"extrapolate": True}))
     for name in ("surface_1", "surface_2"):
         here, there = (getattr(one.heat.balance, name) for one in (near, wide))
         off, bar = abs(there / here - 1.0), near.errors.bars[f"heat_{name}"]
-        assert 0.1 * bar < off < bar
+        assert 0.3 * bar < off < bar
 
 
 def test_the_full_source_is_near_that_of_a_line_at_high_speed():
