@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tehl.api.solvers import solve
 from tehl.base.errors import InputError
 from tehl.contact.options import Domain, Options, coarsenable, coarsenings
 from tehl.estimate.domain import (
@@ -16,10 +17,9 @@ from tehl.estimate.domain import (
     far_field_error,
     recommended_domain,
 )
-from tehl.estimate.entering import entry_error
+from tehl.estimate.entering import entry_error, heat_across, warmed_upstream
 from tehl.estimate.nodes import expected_points, planned
 from tehl.estimate.scaling import ScaledProblem, groups
-from tehl.solver.physics.bodies import solve
 from tests.reference import heated_contact, moes_contact
 
 
@@ -154,6 +154,35 @@ def test_the_heat_of_the_inlet_upstream_of_a_domain_makes_part_of_the_bar_of_its
     entering = entry_error(scaled, near)
     assert 0.4 * entering < here / there - 1.0 < entering
     assert films[0].errors.domain >= entering
+
+
+def test_surfaces_are_warmed_upstream_of_a_domain_and_one_heats_the_other_by_that():
+    """A line between steel and glass that rolls (M = 18, L = 7): 2 % and 4 % of their rises."""
+    problem = heated_contact(
+        0.0, sources="auto", solids=("steel", "glass"), type="line", entrainment_speed=1.0
+    )
+    scaled = ScaledProblem.of(problem)
+    near, films = recommended_domain(scaled.entering, 0.02, near=True), []
+    for times in (1, 2):
+        x = near.x[1] - times * (near.x[1] - near.x[0]), near.x[1]
+        common = {"edges": "far_field", "accuracy": "tight", "extrapolate": False}
+        options = {"points": (256 * times + 1, 1), "domain": Domain(x=x, y=near.y)} | common
+        films.append(solve(problem, Options.model_validate(options)))
+    here, there = films
+    reached = here.scaled.x[0] / there.scaled.x[0]
+    warmer, bars = warmed_upstream(scaled, -near.x[0]), here.errors.bars
+    pairs = [
+        (film.temperature.surface_1_rise_max, film.temperature.surface_2_rise_max) for film in films
+    ]
+    for side in (0, 1):
+        missing = (pairs[1][side] - pairs[0][side]) / (1.0 - reached**1.5)
+        assert 0.2 * max(warmer) < missing < max(warmer[side], sum(warmer) / 2)
+        assert missing < bars[f"surface_{side + 1}_rise_max"] * pairs[0][side]
+    first, second = (film.heat.balance for film in films)
+    moved = (first.surface_2 - second.surface_2) / (1.0 - reached)
+    across = heat_across(scaled, warmer[1] - warmer[0])
+    assert 0.8 * across < moved < across
+    assert moved < bars["heat_surface_2"] * first.surface_2
 
 
 def test_a_contact_that_heats_its_inlet_gets_a_longer_inlet_alone():

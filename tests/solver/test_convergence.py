@@ -438,18 +438,6 @@ def test_oil_hotter_than_the_surfaces_may_be_hotter_still_in_an_unresolved_spike
     assert least <= found.bars["film_rise_max"] <= most
 
 
-def test_rises_of_surfaces_have_ten_times_the_error_by_the_domain_and_the_film_these_kelvins() -> (
-    None
-):
-    """A gear tooth (M = 77): 3.9 % of the surfaces and 1.9 % of the film, 0.12 % of its height."""
-    rises = {"film_rise_max": (1.075, 1.075), "surface_1_rise_max": (0.536, 0.536)}
-    near, far = (further_errors(spiky(rises), 1.0, domain) for domain in (0.0, 0.0035))
-    assert far["surface_1_rise_max"] - near["surface_1_rise_max"] == pytest.approx(0.035)
-    assert far["film_rise_max"] - near["film_rise_max"] == pytest.approx(0.0175, rel=1e-2)
-    slides = further_errors(spiky(rises), 1.0, 0.0035, sliding=0.9)
-    assert slides["surface_1_rise_max"] - near["surface_1_rise_max"] == pytest.approx(0.0035)
-
-
 @pytest.mark.parametrize(
     ("ratio", "cycles", "ends"), [(0.9, 2, False), (0.9, 8, True), (0.3, 2, True)]
 )

@@ -16,11 +16,11 @@ of a thin film at the least distance of the inlet edge, and of a thick one at th
 DISTANCE, WIDTHS = 3.4, 3.0
 """These distances: in Hertz half-widths, and in widths s."""
 SLOWEST, WARMED_MARGIN = 0.1, 1.2
-"""Least speed of a surface that warms upstream, over the entrainment speed; and margin on what oil
-beside it loses of the film. Without it 17 lines (M = 3 to 200, between glass, steel, bronze,
-ceramics or peek) lose 0.08 to 1 of the estimate and that of the far field, and a circle that loses
-half of its film by heat 1.1. Two others lose 0.008 %, and with asperities (M = 259) 0.35 %, where
-it is less than 0.001 and 0.04 %."""
+"""Least speed of a surface that warms upstream, over the entrainment speed; and margin, as the gap
+of a dry contact is 0.8 of the parabola at X = -3.4. Without it 17 lines (M = 3 to 200, between
+glass, steel, bronze, ceramics or peek) lose 0.08 to 1 of the film that is estimated, with that of
+the far field, and a circle that loses half of its film by heat 1.1. Two others lose 0.008 %, and
+with asperities (M = 259) 0.35 %, where it is less than 0.001 and 0.04 %."""
 
 
 def film_peclet(scaled: ScaledProblem) -> float:
@@ -71,7 +71,7 @@ def entry_error(scaled: ScaledProblem, domain: Domain) -> float:
     """
     contrast = body_contrast(scaled)
     inlet = -domain.x[0]
-    heated = _warmed_upstream(scaled, inlet)
+    heated = _film_lost(scaled, inlet)
     if not contrast:
         return heated
     kept = float(kept_part(scaled, inlet, np.zeros(1))[0])
@@ -84,40 +84,77 @@ def body_contrast(scaled: ScaledProblem) -> float:
     return abs(math.log(scaled.entering.lambda_bar / scaled.groups.lambda_bar))
 
 
-def _warmed_upstream(scaled: ScaledProblem, inlet: float) -> float:
-    """Return the error by the heat of the oil that is sheared upstream of the domain.
+def warmed_upstream(scaled: ScaledProblem, inlet: float) -> tuple[float, float]:
+    """Return by what shear upstream of the domain warms both surfaces where the film is loaded [K].
 
-    Between surfaces that roll, far upstream in the gap  h = h_s X^2/2  of a line, shear generates
-    12 eta u^2/h  per area. Each surface takes half, and comes to the contact warmer by
+    Far upstream in the gap  h = h_s X^2/2  of a line, shear generates  (12 u^2 + du^2) eta/h  per
+    area where the surfaces slide with du. Each surface takes half, and comes to the contact warmer
+    by
 
-        8 eta u^2/h_s (a_x/(pi k rho c u_s))^(1/2) |X|^(-3/2),
+        (8 u^2 + 2/3 du^2) eta/h_s (a_x/(pi k rho c u_s))^(1/2) |X|^(-3/2).
 
-    as much as the oil beside it, which is thinner by b times that. As oil of a point contact flows
-    aside, its pressure rises by 3/(3 + 2 D) of that of a line.
+    As oil of a point contact flows aside, its pressure rises by 3/(3 + 2 D) of that of a line.
 
     Parameters
     ----------
     scaled : ScaledProblem
-        With the thermal loading b eta u_m^2/k of the oil, and both solids.
+        With the viscosity of the oil, and both solids.
     inlet : float
         Distance of the inlet edge [half-widths].
     """
-    problem, scales, groups = scaled.problem, scaled.scales, scaled.entering
+    problem, scales, groups, moment = scaled.problem, scaled.scales, scaled.entering, scaled.moment
+    aside = 1.0 if groups.shape.as_line else 3.0 / (3.0 + 2.0 * groups.radius_ratio)
+    rolls = 8.0 * aside**2 * moment.speed**2
+    slides = 2.0 / 3.0 * (moment.sliding**2 + moment.across**2)
+    stress = problem.ambient_viscosity * scales.speed / scales.film_thickness
+    generated = WARMED_MARGIN * (rolls + slides) * scales.speed * stress * inlet**-1.5
+    first, second = (
+        generated * math.sqrt(scales.half_width_x / (math.pi * takes)) if takes else 0.0
+        for takes in _taking(scaled)
+    )
+    return first, second
+
+
+def heat_across(scaled: ScaledProblem, warmer: float) -> float:
+    """Return the heat from one surface, warmer by ``warmer`` [K], to the other [W; line: W/m].
+
+    It passes the film over the area of the dry contact, and both surfaces, which a flux q warms by
+    2 q (x/(pi k rho c u_s))^(1/2)  at the distance x, in the mean by two thirds of that at the end.
+    """
+    conductivity = scaled.problem.lubricant.ambient_conductivity
+    taking = _taking(scaled)
+    if conductivity is None or not all(taking):
+        return 0.0
+    scales, shape = scaled.scales, scaled.entering.shape
+    path = 2.0 * scales.half_width_x / math.pi
+    resistance = _film(scaled) * scales.film_thickness / conductivity
+    resistance += sum(4.0 / 3.0 * math.sqrt(path / takes) for takes in taking)
+    width = 1.0 if shape.as_line else scales.half_width_y
+    return abs(warmer) * shape.area * scales.half_width_x * width / resistance
+
+
+def _taking(scaled: ScaledProblem) -> list[float]:
+    """Return k rho c u_s of both surfaces, zero where the case does not state it."""
+    problem, found = scaled.problem, []
+    surfaces = problem.surface_1, problem.surface_2
+    for surface, part in zip(surfaces, scaled.moment.speeds, strict=True):
+        solid, speed = surface.material, scaled.scales.speed * max(abs(part), SLOWEST)
+        stated = solid.conductivity, solid.density, solid.heat_capacity
+        found.append(math.prod(value or 0.0 for value in stated) * speed)
+    return found
+
+
+def _film_lost(scaled: ScaledProblem, inlet: float) -> float:
+    """Return the error of the film by the heat of the oil that is sheared upstream of the domain.
+
+    Oil beside a surface that is warmer is thinner by b times that.
+    """
+    problem = scaled.problem
     loading = problem.thermal_loading if problem.thermal is not None else None
     if loading is None:
         return 0.0
-    sheared = 8.0 * loading * (problem.lubricant.ambient_conductivity or 0.0)
-    warmer = 0.0
-    surfaces = (problem.surface_1, problem.surface_2)
-    for surface, part in zip(surfaces, scaled.moment.speeds, strict=True):
-        solid, speed = surface.material, scales.speed * max(abs(part), SLOWEST)
-        stated = solid.conductivity, solid.density, solid.heat_capacity
-        takes = math.prod(value or 0.0 for value in stated) * speed
-        if takes:
-            path = math.sqrt(scales.half_width_x / (math.pi * takes))
-            warmer += 0.5 * sheared / scales.film_thickness * path * inlet**-1.5
-    aside = 1.0 if groups.shape.as_line else 3.0 / (3.0 + 2.0 * groups.radius_ratio)
-    return WARMED_MARGIN * wilson_sheu(loading, 0.0) * aside**2 * warmer
+    thinner = problem.temperature_coefficient * sum(warmed_upstream(scaled, inlet)) / 2.0
+    return wilson_sheu(loading, 0.0) * thinner
 
 
 def _film(scaled: ScaledProblem) -> float:

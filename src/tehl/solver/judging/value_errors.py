@@ -25,10 +25,6 @@ HEAT_OF_ROLLING = 0.03
 """Least error of the heat that shear generates in a contact that rolls: it is generated in the
 inlet and below the spike. Three contacts that roll, of 52, err by 1 to 9 %, the most where the
 spike is not resolved, and by 2 to 5 bars without."""
-RISE_OF_DOMAIN = 10.0
-"""Error of the rise of a surface that rolls over that stated for the film, by the edges of the
-domain: heat of the inlet decays slowly upstream of them. Ten contacts with slide-to-roll ratios up
-to 0.1: 4 to 11; others (M = 19): 4, 0.9 and 0.4 with 0.05, 0.2 and 0.5."""
 STRESSES = ("traction_mid_film", "traction_across", "drilling_moment")
 """Measured values that follow from the shear stress."""
 FILM = ("film_central", "film_minimum")
@@ -72,8 +68,7 @@ def further_errors(
             bar += LEAST_KELVIN  # the cycles stop there
         if name.startswith(("ripple", "heat")) or "rise" in name:
             bar *= UNEVEN
-        missing = domain * _warmth_of_inlet(name, traces[-1].measured, sliding)
-        found[name] = abs(bar / last) + missing + traces[-1].measured.get(f"{name}_tail", 0.0)
+        found[name] = abs(bar / last) + domain + traces[-1].measured.get(f"{name}_tail", 0.0)
     if "film_mean" in found:  # two grids may agree by chance
         found["film_mean"] = max(found["film_mean"], film)
     _raise_heats(found, traces[-1].measured, max(film, _heat_of_rolling(sliding)))
@@ -123,24 +118,6 @@ def limit_bars(
         least = 1.0 / (1.0 + sliding / ROLLING_HEAT)
         found["film_rise_max"] = max(found.get("film_rise_max", least), least)
     return resolved
-
-
-def _warmth_of_inlet(name: str, rises: dict[str, float], sliding: float) -> float:
-    """Return the relative error of a value over that of the film, by the edges of the domain.
-
-    Parameters
-    ----------
-    name : str
-        Of the value.
-    rises, sliding : dict, float
-        Measured values; slide-to-roll ratio [-].
-    """
-    if "rise" not in name:
-        return 1.0
-    walls = [value for key, value in rises.items() if key.startswith("surface_") and "rise" in key]
-    warmest = rises[name] if name.startswith("surface_") else max(walls, default=rises[name])
-    part = RISE_OF_DOMAIN / (1.0 + sliding / ROLLING_HEAT)
-    return max(part * abs(warmest / rises[name]), 1.0)
 
 
 def _heat_of_rolling(sliding: float) -> float:
