@@ -272,13 +272,12 @@ def test_sweeps_keep_the_temperature_of_oil_that_flows_back_and_sideways():
 def test_temperatures_of_a_very_hot_inlet_rest_between_the_layers_of_its_oil():
     # 46 m/s, a thermal loading of 57: with nine nodes across the film they swing by several kelvin
     problem = any_contacts.contact(151, 52)[2].model_copy(update={"supply": None})
-    attempt, _ = try_strategies(problem, Options(points=129), monitor=SILENT, rough=False)
+    attempt, _ = try_strategies(problem, Options(points=(193, 97)), monitor=SILENT, rough=False)
     state = attempt.run.coupling.state
     assert state is not None
     assert state.temperature.shape[1] == 17
-    changes = [state.sweep(3) for _ in range(12)]
-    assert max(changes) < 1.0
-    assert changes[-1] < 0.1
+    changes = [state.sweep(3) for _ in range(30)]
+    assert changes[-1] < 1e-3
 
 
 def test_hot_oil_that_flows_back_comes_to_rest_on_fine_grids():
