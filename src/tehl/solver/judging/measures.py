@@ -97,12 +97,8 @@ def _warmed_before(
     """
     first, second = warmed_upstream(scaled, -level.grid.domain.x[0])
     mean, moved = 0.5 * (first + second), heat_across(scaled, first - second)
-    errors = {
-        "film_rise_max": max(first, second),
-        "mid_film_rise_central": mean,
-        "surface_1_rise_max": max(first, mean),
-        "surface_2_rise_max": max(second, mean),
-    } | {f"heat_surface_{side}": moved for side in (1, 2)}
+    warmer = Rises(max(first, second), mean, max(first, mean), max(second, mean))._asdict()
+    errors = warmer | {f"heat_surface_{side}": moved for side in (1, 2)}
     return {f"{name}_tail": abs(errors[name] / values[name]) for name in errors if values[name]}
 
 
