@@ -42,7 +42,7 @@ from tehl.solver.judging.grid_errors import (
     error_estimate,
     extrapolated_bars,
 )
-from tehl.solver.judging.measures import _nodes_across
+from tehl.solver.judging.measures import _bend, _nodes_across
 from tehl.solver.judging.value_errors import (
     HEAT_OF_ROLLING,
     UNEVEN,
@@ -406,6 +406,18 @@ def test_heat_that_rolling_generates_below_an_unresolved_spike_is_hardly_known()
     found = error_estimate(spiky(measured), FilmTraits(order=2))
     assert found.bars["heat_shear"] == pytest.approx(UNRESOLVED_STRESS * HEAT_OF_ROLLING)
     assert found.bars["heat_surface_1"] == pytest.approx(found.bars["heat_shear"], rel=0.01)
+
+
+def test_a_largest_pressure_of_few_nodes_is_uncertain_though_two_grids_agree() -> None:
+    """A circle (M = 5, L = 6): 0.8667 and 0.8672 on 41 and 81 nodes, 0.877 on 641."""
+    low = {"spike": (0.01, 0.016), "excess": (0.01, 0.016)}
+    agreeing = low | {"pressure_max": (0.8667, 0.8672), "bend": (0.2, 0.109)}
+    found = error_estimate(spiky(agreeing), FilmTraits(order=2))
+    assert 0.01 < found.bars["pressure_max"] < 0.04
+    assert _bend(np.array([[0.1, 0.2, 0.1], [0.5, 0.9, 0.7], [0.4, 0.8, 0.1]])) == pytest.approx(
+        0.8
+    )
+    assert _bend(np.array([[0.1, 0.2, 0.1]])) == pytest.approx(0.2)
 
 
 @pytest.mark.parametrize(

@@ -46,12 +46,13 @@ nodes) whose spikes three grids seemed to resolve have 3, and excesses of 0.29 a
 def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
     """Return the values of a converged grid by name.
 
-    ``pressure_max``, ``film_mean`` over the Hertz contact, ``spike`` and its ``excess`` over Hertz,
-    also if it is ``narrow`` [-]; the parts of the load on solids (`tehl.solver.physics.share`) [-];
-    of a rough contact ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one
-    ``traction_mid_film`` and ``traction_across`` [-], with spin ``drilling_moment`` over load times
-    a_x; of a heated film the rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with
-    the names of the powers in `tehl.result.fields.HeatBalance` [W].
+    ``pressure_max`` and its ``bend``, ``film_mean`` over the Hertz contact, ``spike`` and its
+    ``excess`` over Hertz, also if it is ``narrow`` [-]; the parts of the load on solids
+    (`tehl.solver.physics.share`) [-]; of a rough contact ``ripple_film`` and ``ripple_pressure``
+    [-]; of a sliding one ``traction_mid_film`` and ``traction_across`` [-], with spin
+    ``drilling_moment`` over load times a_x; of a heated film the rises that
+    `tehl.post.heat.Temperature` has [K], and ``heat_`` with the names of the powers in
+    `tehl.result.fields.HeatBalance` [W].
 
     Parameters
     ----------
@@ -64,6 +65,7 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     pressure = level.film.p
     found = {
         "pressure_max": float(pressure.max()),
+        "bend": _bend(pressure),
         "film_mean": contact_mean(level.grid.x, level.grid.y, level.film.h, scaled.groups.skew),
         **_spike(level),
     }
@@ -335,6 +337,14 @@ def _spike(level: Level) -> dict[str, float]:
     spike, excess = highest_excess(pressure, dry)
     narrow = excess * (_nodes_across(pressure - dry) <= NODES_OF_NARROW)
     return {"spike": spike, "excess": excess, "narrow": narrow}
+
+
+def _bend(pressure: Array) -> float:
+    """Return the larger second difference at the largest pressure, along x or y [-]."""
+    inner = np.pad(pressure, 1, mode="edge")
+    j, i = (index + 1 for index in divmod(int(pressure.argmax()), pressure.shape[1]))
+    beside = min(inner[j, i - 1] + inner[j, i + 1], inner[j - 1, i] + inner[j + 1, i])
+    return float(2.0 * inner[j, i] - beside)
 
 
 def _nodes_across(above: Array) -> int:
