@@ -1,5 +1,7 @@
 """Domain and grid: proposed values, and invalid ones."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -192,6 +194,31 @@ def test_a_contact_that_heats_its_inlet_gets_a_longer_inlet_alone():
     assert entry_error(scaled, domain) <= INLET_HEAT_PART * 0.01 < entry_error(scaled, least)
     assert domain.x[0] < 1.2 * least.x[0]
     assert domain.y == least.y
+
+
+@pytest.mark.parametrize("degrees", [40.0, -40.0])
+def test_a_slender_contact_at_an_angle_has_a_farther_outlet_for_its_pressure_downstream(degrees):
+    """A thick film (M = 3, R_y/R_x = 6) loses 0.7 % with an outlet at 2.9 half-widths."""
+    problem = moes_contact(3.0, 4.0, radius_ratio=6.0, angle=math.radians(degrees))
+    groups_here, films = ScaledProblem.of(problem).entering, []
+    domain = recommended_domain(groups_here, 0.02, near=True)
+    aligned = recommended_domain(groups(moes_contact(3.0, 4.0, radius_ratio=6.0)), 0.02, near=True)
+    assert domain.x[1] / -domain.x[0] > 1.5 * aligned.x[1] / -aligned.x[0]
+    width = (domain.x[1] - domain.x[0]) / 64
+    for further in (-13, 0, 16):
+        cells, outlet = 64 + further // 16 * 16, domain.x[1] + further * width
+        wide = Domain(x=(outlet - cells * width, outlet), y=domain.y)
+        common = {"edges": "far_field", "accuracy": "tight", "extrapolate": False}
+        films.append(
+            solve(
+                problem,
+                Options.model_validate({"points": (cells + 1, 65), "domain": wide} | common),
+            )
+        )
+    near, here, far = (film.film_scaled.central for film in films)
+    assert abs(far / here - 1.0) < 0.001 < 0.5 * far_field_error(groups_here, domain)
+    assert far / near - 1.0 > 0.004
+    assert far_field_error(groups_here, films[0].options.domain) > 0.01
 
 
 def test_heavier_loads_need_more_points():

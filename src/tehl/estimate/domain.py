@@ -3,6 +3,8 @@
 import math
 from dataclasses import replace
 
+import numpy as np
+
 from tehl.contact.moment import courses_of, moments_of
 from tehl.contact.options import USUAL_PLAIN_ERROR, Domain, Options
 from tehl.estimate.duration import duration_of
@@ -53,6 +55,11 @@ kappa = 1 to 8."""
 NEAR_PART, NEAREST_SIDE, NEAREST_OUTLET = 0.05, 1.4, 1.25
 """Part of the error of the domain that such edges leave each, and least distances of the sides and
 of the outlet, where nearer ones change films of M = 50 and more by less than 0.001 %."""
+OUTFLOW, THICK, ACROSS_OUTLET = 2.0, 1.5, 65
+"""Error of a film at an angle by the pressure on the outlet edge, over that of the rigid gap there
+times the cubed width of the gap; the width in half-widths from which a film is so thick; and the
+places where that pressure is evaluated. Measured for M = 2 to 40, R_y/R_x = 2 and 6: 0.1 to 1 of
+it, up to 0.7 % with an outlet at 1.2 widths."""
 CENTRES = range(9, 14)
 """Intervals of 16 along x that lie upstream of the centre: it is a node of all grids."""
 SEPARATION_WITHOUT_CONTACT, EDGE_GAP_MARGIN = 4.5, 1.3
@@ -104,10 +111,9 @@ def recommended_domain(
             1.0 + max(factor / (NEAR_PART * error) - ROUNDED, 0.0) ** 0.25
             for factor in _near_factors(groups)
         )
-        return _rectangle(
-            max(larger * INLET[1] * along, inlet),
-            NEAREST_OUTLET,
-            max(larger * SIDES[1] * across, side, NEAREST_SIDE),
+        width = max(larger * SIDES[1] * across, side, NEAREST_SIDE)
+        return _with_outlet(
+            groups, _rectangle(max(larger * INLET[1] * along, inlet), NEAREST_OUTLET, width), error
         )
     wide = WIDE_INLET[0] * max(groups.ellipticity, 1.0) ** WIDE_INLET[1]
     inlet = larger * max(INLET[0], wide, INLET[1] * along)
@@ -115,7 +121,45 @@ def recommended_domain(
     width = larger * max(sides[0], sides[1] * across)
     inlet, width = (math.ceil(10.0 * edge) / 10.0 for edge in (inlet, width))
     # not validated: a nearly rigid contact may need more than a stated domain may have
-    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=(-width, width))
+    domain = Domain.model_construct(x=(-inlet, OUTLET * inlet), y=(-width, width))
+    return _with_outlet(groups, domain, error)
+
+
+def _with_outlet(groups: Groups, domain: Domain, error: float) -> Domain:
+    """Return a domain whose outlet edge leaves a part of the error, `NEAR_PART`."""
+    outlet, side = domain.x[1], domain.y[1]
+    while _outflow_error(groups, outlet, side) > NEAR_PART * error:
+        outlet *= DOMAIN_STEP
+    return domain if outlet == domain.x[1] else _rectangle(-domain.x[0], outlet, side)
+
+
+def _outflow_error(groups: Groups, outlet: float, side: float) -> float:
+    """Return the error of a film at an angle by the pressure on the outlet edge [-].
+
+    Far from the contact  P ~ -(a X + b Y)/G^2  in the gap  G = (X, Y) Q (X, Y)',  with
+    (a, b)' = (Q + 2 tr Q)^(-1) Q (1, 0)':  positive also downstream of the centre, at one side.
+
+    Parameters
+    ----------
+    groups : Groups
+        Its ``twist`` is zero where the pressure downstream is that of cavities.
+    outlet, side : float
+        Distances of the outlet and of the sides [half-widths].
+    """
+    if not groups.twist:
+        return 0.0
+    along, ratio, mixed = (
+        gap_widths(groups)[0],
+        groups.radius_ratio,
+        groups.twist / groups.ellipticity,
+    )
+    trace = 2.0 * (1.0 + ratio)
+    determinant = (1.0 + trace) * (ratio + trace) - mixed**2
+    a, b = (ratio + trace - mixed**2) / determinant, trace * mixed / determinant
+    y = groups.ellipticity * side * np.linspace(-1.0, 1.0, ACROSS_OUTLET)
+    gap = outlet**2 + 2.0 * mixed * outlet * y + ratio * y**2
+    pressure = float(np.max(-(a * outlet + b * y) / gap**2))
+    return OUTFLOW * max(pressure, 0.0) * along**3 / (1.0 + (THICK / along) ** 4)
 
 
 def _near_factors(groups: Groups) -> tuple[float, float]:
@@ -152,6 +196,7 @@ def far_field_error(groups: Groups, domain: Domain) -> float:
     part = FAR_SIDES if groups.ellipticity >= SLENDER else FAR_FIELD
     thick = FAR_FIELD * (along / inlet) ** 3 + part * (across / side) ** 3
     near = zip(_near_factors(groups), (inlet, side), strict=True)
+    thick += _outflow_error(groups, domain.x[1], side)
     return thick + sum(factor / ((edge - 1.0) ** 4 + ROUNDED) for factor, edge in near)
 
 
