@@ -268,6 +268,14 @@ def test_sweeps_keep_the_temperature_of_oil_that_flows_back_and_sideways():
     assert np.abs(state.temperature - before).max() < 0.02
 
 
+def test_surfaces_of_a_thin_film_become_warm_together():
+    """Peclet numbers 8 and 0.06: one that takes the other as it is warms by 0.05 of 3 K a sweep."""
+    found = solve(any_contacts.contact(604, 6)[2], Options(error=0.03, max_time=10.0))
+    assert found.status.converged
+    assert found.heat.sources == ("full", "full")
+    assert found.temperature.film_rise_max == pytest.approx(3.04, rel=0.02)
+
+
 @pytest.mark.slow
 def test_temperatures_of_a_very_hot_inlet_rest_between_the_layers_of_its_oil():
     # 46 m/s, a thermal loading of 57: with nine nodes across the film they swing by several kelvin

@@ -321,31 +321,33 @@ class Solids:
         A warmer surface takes less heat, by the conductance of the film, and the other one more.
         With conductance G, response S to the flux and part L of it that the march carries, a misfit
         m of the given part changes the temperature by (1 + S G)^-1 m, and the given part by 1 + L G
-        times this.
+        times this. A surface without misfit follows: beside a thin film both are as warm.
         """
-        given = [number for number in range(2) if misfits[number] is not None]
-        shape = conductance.shape
+        shape, zero = conductance.shape, np.zeros(conductance.size)
 
         def less(change: dict[int, Array], number: int) -> Array:
-            return conductance * (change[number] - change.get(1 - number, 0.0))
+            return conductance * (change[number] - change[1 - number])
 
         def respond(vector: Array) -> Array:
-            change = dict(zip(given, vector.reshape(len(given), *shape), strict=True))
+            change = dict(enumerate(vector.reshape(2, *shape)))
             parts = []
-            for number in given:
+            for number in range(2):
                 flux, source = less(change, number), self.sources[number]
                 lost = (source.rise(flux) if source else 0.0) + self._turned(number, flux)
                 parts.append(change[number] + lost + self._marched(number, flux))
             return np.concatenate([part.ravel() for part in parts])
 
-        right = np.concatenate([m.ravel() for m in misfits if m is not None])
+        right = np.concatenate([zero if m is None else m.ravel() for m in misfits])
         size = right.size
         operator = LinearOperator((size, size), matvec=respond, dtype=np.float64)
-        streams = any(self.streams[number] for number in given)
-        most = STREAM_ITERATIONS if streams else SURFACE_ITERATIONS
+        most = STREAM_ITERATIONS if any(self.streams) else SURFACE_ITERATIONS
         solution, _ = gmres(operator, right, rtol=SURFACE_TOLERANCE, restart=most, maxiter=1)
-        change = dict(zip(given, solution.reshape(len(given), *shape), strict=True))
-        return {n: one + self._marched(n, less(change, n)) for n, one in change.items()}
+        change = dict(enumerate(solution.reshape(2, *shape)))
+        return {
+            number: change[number] + self._marched(number, less(change, number))
+            for number in range(2)
+            if misfits[number] is not None
+        }
 
     def _marched(self, number: int, flux: Array) -> Array:
         """Return the rise of a surface by the line that the sweep carries along, y first [K]."""
