@@ -55,7 +55,7 @@ kappa = 1 to 8."""
 NEAR_PART, NEAREST_SIDE, NEAREST_OUTLET = 0.05, 1.4, 1.25
 """Part of the error of the domain that such edges leave each, and least distances of the sides and
 of the outlet, where nearer ones change films of M = 50 and more by less than 0.001 %."""
-OUTFLOW, THICK, ACROSS_OUTLET = 2.0, 1.5, 65
+OUTFLOW_ERROR, THICK_GAP_WIDTH, OUTLET_PLACES = 2.0, 1.5, 65
 """Error of a film at an angle by the pressure on the outlet edge, over that of the rigid gap there
 times the cubed width of the gap; the width in half-widths from which a film is so thick; and the
 places where that pressure is evaluated. Measured for M = 2 to 40, R_y/R_x = 2 and 6: 0.1 to 1 of
@@ -156,10 +156,10 @@ def _outflow_error(groups: Groups, outlet: float, side: float) -> float:
     trace = 2.0 * (1.0 + ratio)
     determinant = (1.0 + trace) * (ratio + trace) - mixed**2
     a, b = (ratio + trace - mixed**2) / determinant, trace * mixed / determinant
-    y = groups.ellipticity * side * np.linspace(-1.0, 1.0, ACROSS_OUTLET)
+    y = groups.ellipticity * side * np.linspace(-1.0, 1.0, OUTLET_PLACES)
     gap = outlet**2 + 2.0 * mixed * outlet * y + ratio * y**2
     pressure = float(np.max(-(a * outlet + b * y) / gap**2))
-    return OUTFLOW * max(pressure, 0.0) * along**3 / (1.0 + (THICK / along) ** 4)
+    return OUTFLOW_ERROR * max(pressure, 0.0) * along**3 / (1.0 + (THICK_GAP_WIDTH / along) ** 4)
 
 
 def _near_factors(groups: Groups) -> tuple[float, float]:
