@@ -46,8 +46,8 @@ SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
 """Relaxations of a step, fastest first; and those for heated or shear-thinning films."""
 START_TOLERANCE, TIGHT_TIME = 1e-7, 0.5
 """Tolerance of the steady film at time zero, and part of the time for it."""
-ACCEPTED_START_TOLERANCE = 1e-5
-"""Tolerance at which cycles of the steady film may end without that: a hundredth of that of a step.
+ACCEPTED_START_TOLERANCE = 2e-5
+"""Tolerance at which cycles of the steady film may end without that: a fiftieth of that of a step.
 At steep ends of rollers a cycle leaves 0.8 of the change (M = 72: 6e-7 after the most cycles)."""
 SPARE_TIME = 2.0
 """Time that a hint gives to the steps over what they are expected to take: `TIGHT_TIME` of it may
