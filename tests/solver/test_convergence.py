@@ -450,6 +450,26 @@ def test_oil_hotter_than_the_surfaces_may_be_hotter_still_in_an_unresolved_spike
     assert least <= found.bars["film_rise_max"] <= most
 
 
+@pytest.mark.parametrize(("sliding", "least", "most"), [(0.015, 0.9, 1.0), (1.0, 0.1, 0.2)])
+def test_oil_may_be_hotter_in_a_low_spike_of_few_nodes(
+    sliding: float, least: float, most: float
+) -> None:
+    """An inner ring (M = 3,500) that rolls: 3.66 and 3.81 K, 5.8 K on a finer grid."""
+    spike = {"spike": (0.532, 0.541), "excess": (0.115, 0.163), "narrow": (0.115, 0.163)}
+    rises = {"film_rise_max": (3.658, 3.815), "surface_1_rise_max": (2.106, 2.094)}
+    friction = {"traction_mid_film": (-4.53e-2, -4.54e-2), "pressure_max": (0.9938, 0.9935)}
+    found = error_estimate(spiky(spike | rises | friction), FilmTraits(order=2, sliding=sliding))
+    assert found.spike_resolved
+    assert least <= found.bars["film_rise_max"] <= most
+
+
+def test_heat_that_sliding_generates_is_known_as_well_as_traction() -> None:
+    measured = {"traction_mid_film": (-0.0109, -0.01), "heat_shear": (1.0, 1.0)}
+    rolls, slides = (further_errors(spiky(measured), 1.0, 0.0, sliding=s) for s in (0.001, 1.0))
+    assert slides["heat_shear"] == pytest.approx(slides["traction_mid_film"], rel=0.02)
+    assert rolls["heat_shear"] == pytest.approx(HEAT_OF_ROLLING, rel=0.02)
+
+
 @pytest.mark.parametrize(
     ("ratio", "cycles", "ends"), [(0.9, 2, False), (0.9, 8, True), (0.3, 2, True)]
 )
