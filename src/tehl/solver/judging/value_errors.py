@@ -121,13 +121,20 @@ def limit_bars(
             if not resolved:
                 before = next(one.measured[name] for one in traces[-2::-1] if name in one.measured)
                 found[name] += UNRESOLVED_STRESS * abs(1.0 - before / known[name])
-    narrow = known.get("narrow", 0.0) > 0.0
-    is_known = resolved and not narrow and (bool(stated) or slows(_excess(traces)))
-    if _is_hottest_inside(traces[-1]) and not is_known:
-        # that may be where the oil flows through the spike
-        least = _part_of_rolling(sliding)
-        found["film_rise_max"] = max(found.get("film_rise_max", least), least)
+    if "film_rise_max" in found:
+        is_known = resolved and (bool(stated) or slows(_excess(traces)))
+        least = _hot_spot(traces[-1], sliding, is_known=is_known)
+        found["film_rise_max"] = max(found["film_rise_max"], least)
     return resolved
+
+
+def _hot_spot(trace: GridTrace, sliding: float, *, is_known: bool) -> float:
+    """Return the least error of the largest rise in the oil, which may flow through the spike."""
+    if not _is_hottest_inside(trace):
+        return 0.0
+    if not is_known:
+        return 1.0 / (1.0 + sliding / ROLLING_HEAT)
+    return _part_of_rolling(sliding) if trace.measured.get("narrow", 0.0) else 0.0
 
 
 def _part_of_rolling(sliding: float) -> float:
