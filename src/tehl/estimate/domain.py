@@ -29,9 +29,10 @@ LARGEST_DOMAIN_FACTOR = 2.5
 """Largest factor on the domain because of the temperature of the bodies."""
 DOMAIN_STEP, ENTRY_PART = 1.05, 0.3
 """Steps of that factor, and part of the error of the domain that it leaves to the oil entering."""
-INLET_HEAT_PART = 0.2
+INLET_HEAT_PART, STATED_HEAT_PART = 0.2, 0.5
 """Part of it that is left to the heat of the inlet of a point contact, which a longer inlet alone
-makes smaller: 0.4 % of a film within 1 %."""
+makes smaller: 0.4 % of a film within 1 %; and of a film that is not extrapolated, whose nodes may
+be stated and lie further apart for that."""
 ELASTIC = 0.1
 """Error by zero pressure on the edges over the square of the width of the gap over the distance of
 the sides (0.05 to 0.08 measured for M = 10 to 100)."""
@@ -318,7 +319,8 @@ def _of_film(scaled: ScaledProblem, error: float, *, near: bool) -> Domain:
     least = domain = spun_domain(scaled, least, error)
     factor, shape = 1.0, scaled.groups.shape
     is_heated = not shape.as_line and not body_contrast(scaled)
-    left = (INLET_HEAT_PART if is_heated else ENTRY_PART) * error
+    heat_part = INLET_HEAT_PART if near else STATED_HEAT_PART
+    left = (heat_part if is_heated else ENTRY_PART) * error
     while factor < LARGEST_DOMAIN_FACTOR and entry_error(scaled, domain) > left:
         factor = min(DOMAIN_STEP * factor, LARGEST_DOMAIN_FACTOR)
         if is_heated:
