@@ -450,7 +450,7 @@ def test_oil_hotter_than_the_surfaces_may_be_hotter_still_in_an_unresolved_spike
     assert least <= found.bars["film_rise_max"] <= most
 
 
-@pytest.mark.parametrize(("sliding", "least", "most"), [(0.015, 0.9, 1.0), (1.0, 0.05, 0.2)])
+@pytest.mark.parametrize(("sliding", "least", "most"), [(0.015, 0.5, 0.9), (1.0, 0.05, 0.2)])
 def test_oil_may_be_hotter_in_a_low_spike_of_few_nodes(
     sliding: float, least: float, most: float
 ) -> None:
@@ -463,11 +463,12 @@ def test_oil_may_be_hotter_in_a_low_spike_of_few_nodes(
     assert least <= found.bars["film_rise_max"] <= most
 
 
-def test_heat_that_sliding_generates_is_known_as_well_as_traction() -> None:
+def test_heat_that_sliding_generates_is_hardly_better_known_than_traction() -> None:
+    """Ten elevenths of its error at a slide-to-roll ratio of 1."""
     measured = {"traction_mid_film": (-0.0109, -0.01), "heat_shear": (1.0, 1.0)}
     rolls, slides = (further_errors(spiky(measured), 1.0, 0.0, sliding=s) for s in (0.001, 1.0))
-    assert slides["heat_shear"] == pytest.approx(slides["traction_mid_film"], rel=0.02)
-    assert rolls["heat_shear"] == pytest.approx(HEAT_OF_ROLLING, rel=0.02)
+    assert slides["heat_shear"] == pytest.approx(slides["traction_mid_film"] / 1.1)
+    assert rolls["heat_shear"] == pytest.approx(HEAT_OF_ROLLING / 1.01)
 
 
 @pytest.mark.parametrize(

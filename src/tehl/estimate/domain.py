@@ -32,7 +32,8 @@ DOMAIN_STEP, ENTRY_PART = 1.05, 0.3
 INLET_HEAT_PART, STATED_HEAT_PART = 0.2, 0.5
 """Part of it that is left to the heat of the inlet of a point contact, which a longer inlet alone
 makes smaller: 0.4 % of a film within 1 %; and of a film that is not extrapolated, whose nodes may
-be stated and lie further apart for that."""
+be stated and lie further apart for that: with 0.2 the inlet of a dimple (slide-to-roll ratio 2.5)
+begins at -7.1 in place of -4.1, and the film falls by 4 % on 129 nodes, by 1 % on 513."""
 ELASTIC = 0.1
 """Error by zero pressure on the edges over the square of the width of the gap over the distance of
 the sides (0.05 to 0.08 measured for M = 10 to 100)."""

@@ -91,8 +91,9 @@ def warmed_upstream(scaled: ScaledProblem, inlet: float) -> tuple[float, float]:
     area where the surfaces slide with du. Each surface takes half, and comes to the contact warmer
     by
 
-        (8 u^2 + 2/3 du^2) eta/h_s (a_x/(pi k rho c u_s))^(1/2) |X|^(-3/2).
+        (8 u^2 + 2/3 du^2) eta/h_s (a_x/(pi k rho c u_s))^(1/2) |X|^(-3/2),
 
+    with a margin, `WARMED_MARGIN`.
     As oil of a point contact flows aside, its pressure rises by 3/(3 + 2 D) of that of a line.
 
     Parameters

@@ -76,8 +76,9 @@ def further_errors(
         found[name] = abs(bar / last) + domain + traces[-1].measured.get(f"{name}_tail", 0.0)
     if "film_mean" in found:  # two grids may agree by chance
         found["film_mean"] = max(found["film_mean"], film)
-    slides = (1.0 - _part_of_rolling(sliding)) * found.get("traction_mid_film", 0.0)
-    _raise_heats(found, traces[-1].measured, max(film, slides, _heat_of_rolling(sliding)))
+    rolls = _part_of_rolling(sliding)
+    slides = (1.0 - rolls) * found.get("traction_mid_film", 0.0)
+    _raise_heats(found, traces[-1].measured, max(film, slides, HEAT_OF_ROLLING * rolls))
     return found
 
 
@@ -109,7 +110,7 @@ def limit_bars(
         found["pressure_max"] = max(found["pressure_max"], BETWEEN_NODES * bend)
     if not resolved:
         found["pressure_max"] = max(found["pressure_max"], reach)
-        _raise_heats(found, known, UNRESOLVED_STRESS * _heat_of_rolling(sliding))
+        _raise_heats(found, known, UNRESOLVED_STRESS * HEAT_OF_ROLLING * _part_of_rolling(sliding))
     stated = [name for name in STRESSES if name in known]
     friction = math.hypot(*(known.get(name, 0.0) for name in STRESSES[:2]))
     for name in stated:
@@ -132,17 +133,15 @@ def _hot_spot(trace: GridTrace, sliding: float, *, is_known: bool) -> float:
     """Return the least error of the largest rise in the oil, which may flow through the spike."""
     if not _is_hottest_inside(trace):
         return 0.0
+    part = _part_of_rolling(sliding)
     if not is_known:
-        return 1.0 / (1.0 + sliding / ROLLING_HEAT)
-    return _part_of_rolling(sliding) if trace.measured.get("narrow", 0.0) else 0.0
+        return part
+    return part**2 if trace.measured.get("narrow", 0.0) else 0.0
 
 
 def _part_of_rolling(sliding: float) -> float:
-    return 1.0 / (1.0 + (sliding / ROLLING_HEAT) ** 2)
-
-
-def _heat_of_rolling(sliding: float) -> float:
-    return HEAT_OF_ROLLING / (1.0 + sliding / ROLLING_HEAT)
+    """Return the part of the heat that rolling may make, at most [-]."""
+    return 1.0 / (1.0 + sliding / ROLLING_HEAT)
 
 
 def _raise_heats(found: dict[str, float], heats: dict[str, float], least: float) -> None:

@@ -48,7 +48,8 @@ START_TOLERANCE, TIGHT_TIME = 1e-7, 0.5
 """Tolerance of the steady film at time zero, and part of the time for it."""
 ACCEPTED_START_TOLERANCE = 2e-5
 """Tolerance at which cycles of the steady film may end without that: a fiftieth of that of a step.
-At steep ends of rollers a cycle leaves 0.8 of the change (M = 72: 6e-7 after the most cycles)."""
+At steep ends of rollers a cycle leaves 0.8 to 0.9 of the change (M = 72 and 52: 6e-7 and 1.05e-5
+after the most cycles). The second one then has its central film to 1e-8 and the minimum to 4e-6."""
 SPARE_TIME = 2.0
 """Time that a hint gives to the steps over what they are expected to take: `TIGHT_TIME` of it may
 go to the start."""
