@@ -12,12 +12,12 @@ from tehl.estimate.domain import domain_of, far_field_error
 from tehl.estimate.duration import bend_between
 from tehl.estimate.nodes import (
     ENOUGH_LINES,
-    EXPECTED_BAR_MARGIN,
     FAVOURED,
     FEWEST_LINES,
     LIMITED_RATIO,
     LINES_OF_SCARCE,
     LONGEST_CELL,
+    MARGIN_OF_MIDDLE,
     WAVE_NODES,
     _left_to_the_mesh,
     is_thinnest_at_exit,
@@ -32,7 +32,7 @@ from tehl.estimate.third_order import LEAST_SHARED, third_order_bar
 from tests.reference import moes_contact, touching_contact
 
 
-@pytest.mark.parametrize(("radius_ratio", "margin"), [(12.0, 1.0), (2.0, EXPECTED_BAR_MARGIN)])
+@pytest.mark.parametrize(("radius_ratio", "margin"), [(12.0, 1.0), (2.0, MARGIN_OF_MIDDLE)])
 def test_a_slender_flooded_contact_is_planned_without_a_margin(
     radius_ratio: float, margin: float
 ) -> None:

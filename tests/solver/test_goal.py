@@ -460,11 +460,29 @@ def test_a_flooded_film_to_which_a_supply_is_stated_has_the_goal_of_its_centre()
     scaled = ScaledProblem.of(moes_contact(400.0, 1.0))
     options = settled(scaled.problem, Options(error=0.01))
     level = with_minimum_at(0.9, finest_grid(scaled, options.on_points(97, 97)))
-    goal = Goal(scaled, options, of_central=True)
-    assert goal.is_met(errors(0.005, 0.025))
+    goal = Goal(scaled, options, passed_on=1.0)
+    assert goal.is_met(errors(0.004, 0.025))
     assert not goal.is_met(errors(0.0065, 0.001))
-    assert goal.more_lines(level, errors(0.005, 0.025)) is None
+    assert goal.more_lines(level, errors(0.004, 0.025)) is None
     assert goal.spare(errors(0.001, 0.025)) == pytest.approx(MOST_SPARE * FLOODED_PART * 0.01)
+    # of a fifth more oil than the flooded film needs hardly anything depends on that film
+    assert Goal(scaled, options, passed_on=1.0 / (1.0 + 0.8**2)).target == pytest.approx(
+        1.64 * FLOODED_PART * 0.01
+    )
+    assert Goal(scaled, options, passed_on=1.0 / (1.0 + 1.2**2)).target == pytest.approx(0.01)
+
+
+@pytest.mark.parametrize(
+    ("central", "iteration", "awaits"),
+    [(0.011, 0.004, True), (0.008, 0.004, False), (0.013, 0.003, False)],
+)
+def test_cycles_go_on_where_their_error_alone_exceeds_the_goal(
+    central: float, iteration: float, awaits: bool
+) -> None:
+    """A quarter of it is left, and a finer grid costs more."""
+    goal = Goal(ScaledProblem.of(moes_contact(400.0, 10.0)), Options(error=0.01))
+    found = replace(errors(central - iteration, 0.001), iteration_central=iteration)
+    assert goal.awaits_cycles(found, 1.0) is awaits
 
 
 @pytest.mark.parametrize(

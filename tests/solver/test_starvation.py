@@ -509,7 +509,7 @@ def test_the_flooded_film_that_a_supply_is_part_of_takes_half_of_the_lines() -> 
     flooded, options = moes_contact(450.0, 2.0, radius_ratio=1.0), Options(error=0.01)
     found, finer = (
         steady.try_strategies(
-            flooded, options, monitor=SILENT, rough=False, of_central=True, nodes=nodes
+            flooded, options, monitor=SILENT, rough=False, passed_on=1.0, nodes=nodes
         )[1]
         for nodes in (None, (161, 321))
     )

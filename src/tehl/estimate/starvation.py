@@ -24,6 +24,7 @@ import numpy as np
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.options import Domain
+from tehl.contact.supply import Supply
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.line import line_supplied_domain
 from tehl.estimate.scaling import CIRCULAR, Groups, ScaledProblem
@@ -178,11 +179,20 @@ def table() -> tuple[tuple[Array, Array, Array], Array, Array]:
     return axes, (degree / law).reshape(shape), (error / law).reshape(shape)
 
 
+def part_passed_on(supply: Supply) -> float:
+    """Return the part of its relative error that the flooded film passes on to the starved one [-].
+
+    By the film law, 1 / (1 + r^gamma) of a ratio r, with gamma = 2 at least; all of it for other
+    supplies, whose degree of starvation it decides.
+    """
+    return 1.0 if supply.ratio is None else 1.0 / (1.0 + supply.ratio**2)
+
+
 def supply_error(scaled: ScaledProblem) -> float:
     """Return the relative error of the film by what is known of the supply.
 
     Of a stated ratio by the error of the flooded film, which is that of the formula if no flooded
-    film was found; the film law says by how much: 1 / (1 + r^gamma), with gamma = 2 at least.
+    film was found (`part_passed_on`).
     """
     supply = scaled.problem.supply
     if supply is not None and not is_starved(scaled):
@@ -190,7 +200,7 @@ def supply_error(scaled: ScaledProblem) -> float:
     if supply is None or supply.ratio is None:
         return 0.0
     error = FORMULA_ERROR if scaled.flooded_oil is None else scaled.flooded_error
-    return error / (1.0 + supply.ratio**2)
+    return error * part_passed_on(supply)
 
 
 def supplied_film(scaled: ScaledProblem) -> float:

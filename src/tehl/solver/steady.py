@@ -18,7 +18,7 @@ from tehl.estimate.memory import check_memory
 from tehl.estimate.nodes import finest_grid, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
-from tehl.estimate.starvation import FORMULA_ERROR, Flooded, check_supply
+from tehl.estimate.starvation import FORMULA_ERROR, Flooded, check_supply, part_passed_on
 from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import check_ends, heights_of, units_of
 from tehl.operators.resolution import resolution_of
@@ -151,7 +151,7 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     rough: bool,
     guess: Solution | None = None,
     flooded: Flooded | None = None,
-    of_central: bool = False,
+    passed_on: float | None = None,
     until: float | None = None,
     nodes: tuple[int, int] | None = None,
     tolerance: float = 0.0,
@@ -166,13 +166,11 @@ def try_strategies(  # noqa: PLR0913 (one solve)
         Whether the surfaces have their roughness, at time zero; else they are smooth.
     flooded : Flooded or None
         The flooded contact; None computes it if oil is supplied.
-    of_central : bool
-        As in `Goal`.
     until : float or None
         When the time is over, on the clock of `working_time` [s]; None is that of the options.
     nodes : (int, int) or None
         Nodes along x and y to begin with, in place of those planned for the error.
-    tolerance : float
+    passed_on, tolerance
         As in `Goal`.
     """
     warm_up(coupled=problem.is_coupled)
@@ -183,8 +181,8 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     scaled = ScaledProblem.of(problem)
     if flooded is not None:
         scaled = replace(scaled, flooded_oil=flooded.oil, flooded_error=flooded.error)
-    goal = Goal(scaled, options, of_central=of_central, until=until, tolerance=tolerance)
-    plan = planned(scaled, options, of_central=of_central)
+    goal = Goal(scaled, options, passed_on=passed_on, until=until, tolerance=tolerance)
+    plan = planned(scaled, options, of_central=goal.of_central)
     plan = goal.fitting(plan if nodes is None else plan.on_points(*nodes))
     check_supply(scaled, domain_of(scaled, plan))
     check_film(scaled)
@@ -248,7 +246,12 @@ def flooded_film(
     same = problem.model_copy(update=changes)
     options = options.model_copy(update={"domain": "auto", "edges": "auto"})
     attempt, result = try_strategies(
-        same, options, monitor=SILENT, rough=False, of_central=True, until=until
+        same,
+        options,
+        monitor=SILENT,
+        rough=False,
+        passed_on=part_passed_on(problem.supply),
+        until=until,
     )
     errors = result.errors
     is_known = attempt.reached and errors is not None and errors.central < FORMULA_ERROR

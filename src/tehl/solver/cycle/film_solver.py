@@ -30,6 +30,7 @@ from tehl.solver.judging.convergence import (
     GridTrace,
     converged,
     film_converged,
+    stalled,
 )
 from tehl.solver.judging.extrapolation import Outputs, extrapolated, outputs_of
 from tehl.solver.judging.film_errors import estimated_errors
@@ -169,6 +170,7 @@ class FilmSolver(GridIteration):
         try:
             self._solve_finest()
             self._measure(self.levels)
+            self._reach_goal()
         except TouchingError:
             raise
         except DivergedError:
@@ -182,6 +184,15 @@ class FilmSolver(GridIteration):
                 if self._has_converged():
                     self._keep(self.levels)
                 self._refine()
+
+    def _reach_goal(self) -> None:
+        """Cycle on where the iteration error is what the goal lacks: a finer grid costs more."""
+        trace = self.traces[-1]
+        while len(trace.reports) < self.options.max_cycles and not self.goal.is_over:
+            ends = stalled(trace, self.strategy.patience) or not self._has_converged()
+            if ends or not self.goal.awaits_cycles(self.errors(), self.minimum_part()):
+                return
+            self._go_further(self.levels)
 
     def keep_solved(self, known: tuple[Solved, ...]) -> bool:
         """Make the finest grid that is solved the last one; return whether it has error bars.

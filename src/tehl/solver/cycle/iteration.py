@@ -167,6 +167,13 @@ class GridIteration:
                 return
             self._add(trace, self._iteration(levels, method.step, number), method)
 
+    def _go_further(self, levels: Sequence[Level]) -> None:
+        """Perform another cycle on the last of ``levels``, which has converged."""
+        trace, method = self.traces[-1], method_of(self._visit(levels))
+        number = len(trace.reports) + 1
+        self._add(trace, self._iteration(levels, method.step, number), method)
+        self._measure(levels)
+
     def _is_done(self, trace: GridTrace, *, finest: bool) -> bool:
         """Return whether the iteration on a grid has converged or stalled."""
         coarser = self._coarser_trace()

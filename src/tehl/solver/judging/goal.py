@@ -1,7 +1,7 @@
 """The accuracy to reach, and whether a finer grid follows."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from tehl.base.units import percentage
 from tehl.base.wording import grid_size
@@ -39,14 +39,16 @@ LINES_PART = 2.0
 LEAST_LEFT = 0.4
 """Part of the error to reach that is left to the mesh along y, below which lines alone are too
 many: with 0.55 of it by the supply a drive (M = 34,300) needs 1.7 times as many."""
-FLOODED_PART, EXACT_PART, EXACT_LOAD = 0.7, 0.4, 5e3
-"""Error to reach of a flooded film to which ``supply.ratio`` is stated, over that of the starved
-one, which has it beside its own: with 0.5 an inner ring (M = 3,700) needs another grid, with 1 a
-starved rig (M = 811). The second from a Moes load M on: the flooded film then takes a tenth of the
-time of the other, and with 0.7 a ring (M = 30,000) just misses 1 %."""
+FLOODED_PART, EXACT_PART, EXACT_LOAD = 0.55, 0.4, 5e3
+"""Error that a flooded film to which ``supply.ratio`` is stated may pass on, over that to reach of
+the starved one, which has it beside its own: with 0.5 an inner ring (M = 3,700) needs another grid,
+with 1 a starved rig (M = 811). The second from a Moes load M on: the flooded film then takes a
+tenth of the time of the other, and with 0.7 a ring (M = 30,000) just misses 1 %."""
 BETWEEN, MOST_OTHERS = 1.5, 3
 """Most intervals along x of another grid over those of the last, as half the mesh width costs four
 times as much; and how many other grids are tried."""
+PART_OF_FURTHER = 0.25
+"""Part of an iteration error that some further cycles leave."""
 PART_AT_START = 0.5
 """Part of the error to reach that a steady film may have on a coarser grid from which a transient
 run starts: its film becomes thinner where the motion slows down. The minimum of an ellipse whose
@@ -65,8 +67,9 @@ class Goal:
     ----------
     scaled, options : ScaledProblem, Options
         The contact, and the options of the user.
-    of_central : bool
-        Whether the error is that of the central film alone: a supply is stated to that.
+    passed_on : float or None
+        Part of its error that a flooded film passes on to the starved one which is stated to it:
+        the error is that of the central film alone. None is a film for itself.
     until : float
         When the time is over, on the clock of `working_time` [s].
     tolerance : float
@@ -75,7 +78,7 @@ class Goal:
 
     scaled: ScaledProblem
     options: Options
-    of_central: bool = False
+    passed_on: float | None = None
     until: float = math.inf
     tolerance: float = 0.0
     obstacle: str = ""
@@ -91,10 +94,15 @@ class Goal:
     @property
     def target(self) -> float:
         """The relative error to reach [-]."""
-        if not self.of_central:
+        if self.passed_on is None:
             return self.options.target
-        heavy = self.scaled.groups.M > EXACT_LOAD
-        return self.options.target * (EXACT_PART if heavy else FLOODED_PART)
+        part = EXACT_PART if self.scaled.groups.M > EXACT_LOAD else FLOODED_PART
+        return self.options.target * min(part / self.passed_on, 1.0)
+
+    @property
+    def of_central(self) -> bool:
+        """Whether the error is that of the central film alone."""
+        return self.passed_on is not None
 
     @property
     def is_open(self) -> bool:
@@ -166,6 +174,20 @@ class Goal:
             return False
         reached = errors.central if self.of_central else errors.film(part)
         return reached <= (error or self.target)
+
+    def awaits_cycles(self, errors: ErrorEstimate | None, part: float) -> bool:
+        """Return whether further cycles reach the error, which the mesh alone does not exceed.
+
+        Parameters
+        ----------
+        errors, part
+            As of `is_met`.
+        """
+        if errors is None or not self.is_open or self.is_met(errors, part):
+            return False
+        names = ("iteration_central", "iteration_minimum")
+        left = {name: PART_OF_FURTHER * getattr(errors, name) for name in names}
+        return self.is_met(replace(errors, **left), part)
 
     @property
     def is_over(self) -> bool:
