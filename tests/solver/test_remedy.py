@@ -85,6 +85,23 @@ def test_bodies_of_stated_temperature_do_not_break_the_search_for_a_hint():
     assert working_hint(failed, fails, SILENT, math.inf).settings == {}
 
 
+def test_a_film_that_meets_the_goal_on_nodes_for_a_larger_error_is_the_result(monkeypatch):
+    found = solve(moes(100.0), Options(error=0.01))
+    failed = replace(failure(100.0, points=33).result, problem=found.problem)
+    monkeypatch.setattr(steady, "solved_on_other_nodes", lambda *_: None)
+    monkeypatch.setattr(steady, "try_strategies", lambda *_, **__: (None, found))
+    result = steady._after_failure(
+        replace(failed, options=Options(error=0.02)), None, SILENT, math.inf
+    )
+    assert result.status.converged
+    assert result.options == Options(error=0.02)
+    assert result.history == failed.history + found.history
+    strict = replace(failed, options=Options(error=1e-4))
+    kept = steady._after_failure(strict, None, SILENT, math.inf)
+    assert not kept.status.converged
+    assert kept.status.hint.settings
+
+
 def test_stated_nodes_are_not_searched(monkeypatch):
     monkeypatch.setattr(steady, "working_hint", None)
     with pytest.raises(ConvergenceError):

@@ -40,7 +40,7 @@ from tehl.solver.cycle.level import Level
 from tehl.solver.judging.film_summary import central_value, film_summary
 from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.outputs import oil_balance
-from tehl.solver.judging.remedy import Reached, solved_on_other_nodes, working_hint
+from tehl.solver.judging.remedy import Reached, Solve, meets, solved_on_other_nodes, working_hint
 from tehl.solver.judging.verdict import TOO_COARSE
 from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.physics.dynamics import with_dynamics
@@ -91,7 +91,7 @@ def solve(
 def _after_failure(
     failed: Solution, reached: Reached | None, monitor: Monitor, end: float
 ) -> Solution:
-    """Return the film on other nodes if it converges there, else the failed one with a hint.
+    """Return the film on other nodes if it converges there, else as `_hinted`.
 
     Nothing is tried after ``end`` on the clock of `working_time`.
 
@@ -101,9 +101,6 @@ def _after_failure(
 
     def attempt(problem: ContactProblem, options: Options) -> Solution:
         return try_strategies(problem, options, monitor=monitor, rough=True)[1]
-
-    def trial(problem: ContactProblem, options: Options) -> Solution:
-        return attempt(problem.model_copy(update={"dynamics": None}), options)
 
     def on_nodes(nodes: tuple[int, int], seconds: float) -> Solution:
         return try_strategies(
@@ -118,14 +115,12 @@ def _after_failure(
 
     on_others = solved_on_other_nodes(failed, on_nodes, monitor, end)
     if on_others is not None:
-        return on_others.but(
-            history=failed.history + on_others.history, cost=failed.cost + on_others.cost
-        )
+        return _in_place_of(failed, on_others)
     if failed.status.cause == "error_not_reached" and failed.errors is not None:
         reached = failed.scaled.film.shape[::-1], failed.errors.film()
-    hint = working_hint(failed, trial, monitor, end, reached)
-    failed = failed.but(status=replace(failed.status, hint=hint))
-    if reached is None or failed.status.cause == "error_not_reached":  # its film is the best
+    failed = _hinted(failed, reached, attempt, monitor, end)
+    is_best = failed.status.converged or failed.status.cause == "error_not_reached"
+    if reached is None or is_best:
         return failed
     (nx, ny), error = reached
     again = failed.options.on_points(nx, ny)
@@ -135,12 +130,31 @@ def _after_failure(
         return failed
     text = f"The film on {grid_size((nx, ny))} is kept; its error is about {percentage(error)}."
     status = replace(failed.status, kind="not_converged", message=f"{failed.status.message} {text}")
-    return kept.but(
-        options=failed.options,
-        status=status,
-        history=failed.history + kept.history,
-        cost=failed.cost + kept.cost,
-    )
+    return _in_place_of(failed, kept).but(status=status)
+
+
+def _hinted(
+    failed: Solution, reached: Reached | None, solve: Solve, monitor: Monitor, end: float
+) -> Solution:
+    """Return a failed film with a hint, or one that meets the goal on nodes for a larger error."""
+    meeting: list[Solution] = []
+
+    def trial(problem: ContactProblem, options: Options) -> Solution:
+        found = solve(problem.model_copy(update={"dynamics": None}), options)
+        if problem == failed.problem and meets(found, failed.options.target):
+            meeting.append(found)
+        return found
+
+    hint = working_hint(failed, trial, monitor, end, reached)
+    if meeting and failed.problem.dynamics is None:
+        return _in_place_of(failed, meeting[-1])
+    return failed.but(status=replace(failed.status, hint=hint))
+
+
+def _in_place_of(failed: Solution, found: Solution) -> Solution:
+    """Return what was found after a failure, with all cycles and the options of the user."""
+    history, cost = failed.history + found.history, failed.cost + found.cost
+    return found.but(options=failed.options, history=history, cost=cost)
 
 
 def try_strategies(  # noqa: PLR0913 (one solve)

@@ -32,6 +32,11 @@ OTHER_GRIDS, LEAST_TRIAL = 2, 0.2
 the sums of a roller on 321 x 321 nodes alone take a sixth of it."""
 
 
+def meets(found: Solution, error: float) -> bool:
+    """Return whether a film converged to a relative error [-]."""
+    return found.status.converged and found.errors is not None and found.errors.film() <= error
+
+
 def solved_on_other_nodes(
     failed: Solution, solve: SolveOn, monitor: Monitor, end: float
 ) -> Solution | None:
@@ -65,9 +70,9 @@ def solved_on_other_nodes(
         monitor.message(f"trying {grid_size(points)}")
         with suppress(TehlError):
             found = solve(points, left)
-            error = math.inf if found.errors is None else found.errors.film()
-            if found.status.converged and error <= failed.options.target:
+            if meets(found, failed.options.target):
                 return found
+            error = math.inf if found.errors is None else found.errors.film()
             if found.status.cause == "error_not_reached" and error < least:
                 best, least = found, error
     return best
