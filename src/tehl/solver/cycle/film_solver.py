@@ -119,6 +119,8 @@ class FilmSolver(GridIteration):
                 self._improve_finest(force=force)
             else:
                 self.accepted = self._approximate(levels)
+                if self._runs_away() and not force:
+                    raise DivergedError
                 if self._is_last(levels):
                     self._finish(levels)
                     self._measure(levels)
@@ -369,6 +371,11 @@ class FilmSolver(GridIteration):
         elif film_converged(self.traces[-1], self._coarser_trace()):
             self._keep(levels)  # not one that oscillates
         return accepted
+
+    def _runs_away(self) -> bool:
+        """Return whether undamped heat or thinning diverged: so it does on the next grid."""
+        last = self.traces[-1]
+        return last.diverged and last.coupled and self.strategy.damping == 1.0
 
     def _discard(self, levels: Sequence[Level]) -> None:
         """Let the next grid start without film, heat and relaxation of ``levels``."""
