@@ -141,7 +141,9 @@ def _hinted(
 
     def trial(problem: ContactProblem, options: Options) -> Solution:
         found = solve(problem.model_copy(update={"dynamics": None}), options)
-        if problem == failed.problem and meets(found, failed.options.target):
+        mine = failed.options
+        same = options.model_copy(update={"error": mine.error, "max_time": mine.max_time}) == mine
+        if same and problem == failed.problem and meets(found, mine.target):
             meeting.append(found)
         return found
 
