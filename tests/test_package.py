@@ -95,6 +95,15 @@ def test_a_solver_names_an_argument_that_is_not_a_case_or_options(name):
         solver("case.toml")
     with pytest.raises(tehl.InputError, match=r"options: must be tehl\.Options, not dict"):
         solver(moes_problem(20.0, 10.0), {"error": 0.01})
+    with pytest.raises(tehl.InputError, match=r"error = 1 % and numerics\.points are both stated"):
+        solver(moes_problem(20.0, 10.0), tehl.Options(points=65, error=0.01))
+
+
+def test_an_oil_or_a_solid_that_is_not_a_name_is_not_known():
+    with pytest.raises(tehl.InputError, match=r"None is not a known oil"):
+        tehl.oil(None)
+    with pytest.raises(tehl.InputError, match=r"3 is not a known solid"):
+        tehl.material(3)
 
 
 def test_a_study_names_an_argument_that_is_not_a_case():

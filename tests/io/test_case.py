@@ -169,6 +169,7 @@ MISTAKES = [
         'dynamics.frequencies = "1 kHz"',
         "must be a list, in square br",
     ),
+    ("numerics.max_memory=-1", "numerics.max_memory = -1", "is not an amount of memory, su"),
     ("numerics.max_memory=1e30", "numerics.max_memory = 1e+30", "is not an amount of memory, su"),
     ("lubricant.temperature=0.0", "lubricant.temperature = 0", "is not above absolute zero"),
     ("numerics.domain={x=3, y=[-3, 3]}", "numerics.domain.x = 3", "a list of two numbers"),

@@ -61,6 +61,12 @@ def test_a_stress_beyond_that_of_oils_is_attributed_to_the_shear_law():
     assert found is not None
     assert found.cause == "shear_stress"
     assert "lubricant.shear" in str(found.hint)
+    tables = sliding.model_dump(exclude_none=True)
+    tables["lubricant"]["shear"] = {"law": "eyring", "stress": 5e6}
+    tables["contact"] |= {"hertz_pressure": 0.5e9, "slide_roll_ratio": 1e4}
+    thinning = cause_of(ContactProblem.model_validate(tables), 1025)
+    assert thinning is not None
+    assert str(thinning.hint).startswith("Take a slide_roll_ratio nearer to zero")
 
 
 @pytest.mark.parametrize(("pressure", "is_glass"), [(1e9, False), (5e9, True)])

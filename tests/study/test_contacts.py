@@ -16,7 +16,7 @@ from tehl.estimate.settled import settled
 from tehl.io.templates import template_text
 from tehl.result.solution import Hint
 from tehl.studies import Store
-from tehl.studies.answers import answers, values_of
+from tehl.studies.answers import _obtained, answers, values_of, write_answers
 from tehl.studies.case import Case, Row
 from tehl.studies.contacts import contacts_of, read_contacts, tables_of, template_tables
 from tehl.studies.headings import column_of
@@ -131,6 +131,41 @@ def test_a_row_that_states_another_key_removes_that_of_the_template(template):
     tables = tables_of(base, {"lubricant.oil": "iso-vg-68", "surface_1.radius": "4 mm"})
     assert tables["lubricant"] == {"oil": "iso-vg-68"}
     assert tables["surface_1"] == {"material": "steel", "radius": "4 mm"}
+
+
+def test_a_row_switches_a_table_on_and_off(template):
+    base = template_tables(template)[0]
+    heated = tables_of(base, {"thermal": "yes", "contact.slide_roll_ratio": 0.1})
+    assert heated["thermal"] == {}
+    layers = base | {"thermal": {"layers": 9}}
+    assert tables_of(layers, {"thermal": True})["thermal"] == {"layers": 9}
+    assert "thermal" not in tables_of(layers, {"thermal": "no"})
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('load [N],remark\n80,"unclosed\n90,x\n', "line 2: a quote is not closed"),
+        ('load [N],remark\n80,x\n90,"a"b\n', "line 3: a quote is not closed, or has more"),
+    ],
+)
+def test_a_quote_that_would_hide_rows_is_an_error(tmp_path, template, text, words):
+    path = tmp_path / "list.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=words):
+        read_contacts(path, template)
+
+
+def test_dates_are_words_and_no_text_is_a_formula_in_a_sheet(tmp_path, template, monkeypatch):
+    path = tmp_path / "list.csv"
+    path.write_text("load [N],when,remark\n80,2020-01-01,=1+1\n", encoding="utf-8")
+    contacts = read_contacts(path, template)
+    monkeypatch.setattr(Store, "rows", lambda *_: {})
+    write_answers(contacts, Store(tmp_path / "s"), tmp_path / "out.xlsx")
+    page = load_workbook(tmp_path / "out.xlsx").active
+    cells = [page.cell(3, place) for place in (1, 2, 3)]
+    assert [one.value for one in cells] == [80, "2020-01-01", "=1+1"]
+    assert [one.data_type for one in cells] == ["n", "s", "s"]
 
 
 def test_the_viscosities_of_a_data_sheet_replace_the_law_of_the_template(tmp_path):
@@ -288,6 +323,8 @@ def test_friction_and_loss_contain_those_of_asperities():
     assert values["kappa, as lambda^1.3"] == pytest.approx(2.0**1.3)
     oil = {"traction.mid_film": -3.0, "traction.credible": False}
     assert "friction" not in values_of(oil)
+    row = Row(key="a", status="converged", summary=oil)
+    assert "no friction, as this oil shears at more stress" in _obtained(row)
 
 
 def test_answers_are_taken_in_parts(tmp_path, template, monkeypatch):

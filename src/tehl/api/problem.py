@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from tehl.base.errors import InputError
 from tehl.base.lazy import lazy
 from tehl.contact import problem as plain
-from tehl.contact.options import Options
+from tehl.contact.options import Options, check_nodes
 
 if TYPE_CHECKING:
     from tehl.io import case
@@ -107,3 +107,5 @@ def check_call(problem: object, options: object = None) -> None:
     if not isinstance(options, Options | None):
         kind = type(options).__name__
         raise InputError(f"options: must be tehl.Options, not {kind}: Options(error=0.01)")
+    if options is not None:
+        check_nodes(options)

@@ -189,15 +189,25 @@ def _csv(path: Path) -> Iterator[tuple[int, list[str]]]:
     skipped = _STATED_DELIMITER.fullmatch(file.readline()) is not None
     if not skipped:
         file.seek(0)
-    reader = csv.reader(file, delimiter=spelling.delimiter)
-    for line in reader:
-        number = reader.line_num + skipped
+    for number, line in _records(file, spelling.delimiter, 1 + skipped):
         cells = [cell.strip() for cell in line]
         if spelling.decimal == ",":
             cells = [
                 Doubtful(cell) if _THOUSANDS.fullmatch(cell) else _pointed(cell) for cell in cells
             ]
         yield number, cells
+
+
+def _records(file: StringIO, delimiter: str, first: int) -> Iterator[tuple[int, list[str]]]:
+    """Yield the cells of the lines of a CSV file, and where each ends."""
+    reader = csv.reader(file, delimiter=delimiter, strict=True)
+    begun = first
+    try:
+        for line in reader:
+            yield reader.line_num + first - 1, line
+            begun = reader.line_num + first
+    except csv.Error:
+        raise InputError(f"line {begun}: a quote is not closed, or has more behind it") from None
 
 
 def _sheet(path: Path) -> list[tuple[int, list[Any]]]:

@@ -108,7 +108,7 @@ class Library:
         """
         entries = self.entries(folder)
         names = {_plain(word): one for one in entries.values() for word in one.words}
-        if (plain := _plain(name)) in names:
+        if (plain := _plain(str(name))) in names:
             return self.checked(names[plain])
         close = difflib.get_close_matches(plain, names, n=1)
         guess = f"did you mean {names[close[0]].table['name']}? " if close else ""

@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, ByteSize, Field, model_validator
 from tehl.base.errors import InputError
 from tehl.base.mistakes import part_of_case
 from tehl.base.table import Table
-from tehl.base.units import Duration, Share
+from tehl.base.units import Duration, Share, percentage
 
 
 def _not_a_boolean(value: object) -> object:
@@ -21,7 +21,7 @@ def _not_a_boolean(value: object) -> object:
 
 def _memory(value: object) -> object:
     """Reject what is not an amount of memory."""
-    known = isinstance(value, int | float) and abs(value) < 1e18  # not NaN, and no machine has more
+    known = isinstance(value, int | float) and 0 < value < 1e18  # not NaN, and no machine has more
     known = known or (isinstance(value, str) and _MEMORY.fullmatch(value) is not None)
     if isinstance(value, bool) or not known:
         raise ValueError('is not an amount of memory, such as "2 GB"')
@@ -225,6 +225,15 @@ class Options(Discretisation):
                 "or more"
             )
         return self
+
+
+def check_nodes(options: Options) -> None:
+    """Raise InputError if both the error to reach and the nodes are stated."""
+    if options.error is not None and options.points != "auto":
+        raise InputError(
+            f"numerics.error = {percentage(options.error)} and numerics.points are both stated: "
+            'the error decides the number of nodes; remove one, or set numerics.points = "auto"'
+        )
 
 
 def coarsenings(nodes: int) -> int:

@@ -16,10 +16,10 @@ from tehl.base.errors import InputError
 from tehl.base.keys import field_at, models_at
 from tehl.base.lists import plain_value
 from tehl.base.mistakes import describe
-from tehl.base.units import Quantity, percentage
+from tehl.base.units import Quantity
 from tehl.base.wording import short, shown
 from tehl.contact.materials import SOLIDS
-from tehl.contact.options import NUMERICS, Options
+from tehl.contact.options import NUMERICS, Options, check_nodes
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.settled import settled
 from tehl.lubricant.fluid import OILS
@@ -66,11 +66,7 @@ def case_from_tables(
     problem = _validated(ContactProblem, physics, prefix="", folder=folder)
     _check_maps(problem)
     options = _validated(Options, tables.get(NUMERICS, {}), prefix=NUMERICS)
-    if options.error is not None and options.points != "auto":
-        raise InputError(
-            f"numerics.error = {percentage(options.error)} and numerics.points are both stated: "
-            'the error decides the number of nodes; remove one, or set numerics.points = "auto"'
-        )
+    check_nodes(options)
     settled(problem, options)  # raises where they do not suit the shape of the contact
     return problem, options
 

@@ -299,16 +299,14 @@ def _about_sliding(scaled: ScaledProblem, heat: ExpectedHeat | None) -> Iterator
 def _about_heat(problem: ContactProblem, heat: ExpectedHeat | None) -> Iterator[str]:
     """Yield what is missing of an isothermal case, or what is wrong in a thermal one."""
     thermal, newtonian = problem.thermal, problem.lubricant.shear.is_newtonian
+    slides = problem.sliding_speed > SLIDING * problem.entrainment_speed
+    neglects = "film neglects: its traction is far too high" if newtonian else "film neglects"
     if thermal is None and heat is not None and heat.largest > WARM:
         yield (
             f"[thermal] is missing: shear heats the film by about {heat.largest:.2g} K, which an "
-            f"isothermal {'Newtonian ' if newtonian else ''}film neglects"
+            f"isothermal {'Newtonian ' if newtonian else ''}{neglects}"
         )
-    elif (
-        thermal is None
-        and newtonian
-        and problem.sliding_speed > SLIDING * problem.entrainment_speed
-    ):
+    elif thermal is None and newtonian and slides:
         yield (
             "the surfaces slide, but the film is isothermal and Newtonian: heat would thin it, and "
             "its traction is far too high"

@@ -1,7 +1,7 @@
 """What a list of contacts gives back: a line per row with its answers and bars, in a table."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from functools import cache
 from pathlib import Path
@@ -9,13 +9,20 @@ from typing import TYPE_CHECKING, Any
 
 from tehl.api.problem import ContactProblem
 from tehl.base.atomic import replacing
-from tehl.base.lists import check_format, lines_of_frame
+from tehl.base.lists import check_format, lines_of_frame, plain_value
 from tehl.base.units import percentage
 from tehl.base.wording import grid_size
 from tehl.result.quantity import Quantity
 from tehl.result.registry import shown_in
 from tehl.studies.case import Row
-from tehl.studies.contacts import Contacts, Listed, contacts_of, stated_in, template_tables
+from tehl.studies.contacts import (
+    TITLE,
+    Contacts,
+    Listed,
+    contacts_of,
+    stated_in,
+    template_tables,
+)
 from tehl.studies.headings import Column, column_of
 from tehl.studies.plan import for_parquet
 from tehl.studies.runner import QUIET, StudyMonitor, run
@@ -94,6 +101,9 @@ def _key_of(name: str) -> str | None:
     return column_of(name.removeprefix("± ")).key
 
 
+_EYRING = "state lubricant.shear.law = eyring and lubricant.shear.stress = 5 MPa"
+
+
 def _obtained(row: Row | None) -> str:
     """Return how a row was obtained, or why not, in a sentence."""
     if row is None:
@@ -107,6 +117,8 @@ def _obtained(row: Row | None) -> str:
     text = f"solved on {grid_size((nx, ny))}"
     if worst is not None:
         text = f"{text}, film to {percentage(worst)}"
+    if row.summary.get("traction.credible") is False:
+        text = f"{text}; no friction, as this oil shears at more stress than oils bear: {_EYRING}"
     return f"{text}. {row.message} {row.hint}" if row.hint else text  # converged, but uncertain
 
 
@@ -149,7 +161,8 @@ def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
     lines = answers(contacts, store)
     with replacing(path) as temporary:
         if path.suffix.lower() == ".xlsx":
-            _write_sheet(headings, lines, temporary)
+            known = (one for one in contacts.columns if one.key not in (None, TITLE))
+            _write_sheet(headings, lines, temporary, numeric={one.heading for one in known})
         else:
             frame = _frame_of(headings, lines)
             if path.suffix.lower() == ".csv":
@@ -175,8 +188,23 @@ def _frame_of(headings: Sequence[str], lines: Iterable[Mapping[str, Any]]) -> "p
     )
 
 
-def _write_sheet(headings: Sequence[str], lines: Iterable[Mapping[str, Any]], path: Path) -> None:
-    """Write a sheet as engineers do: headings, a row of units, both frozen, numbers formatted."""
+def _number_of(value: Any) -> Any:
+    """Return the number that a cell of a list shows as text, such as "80"; else what it has."""
+    found = plain_value(value) if isinstance(value, str) else value
+    return found if isinstance(found, int | float) else value
+
+
+def _write_sheet(
+    headings: Sequence[str],
+    lines: Iterable[Mapping[str, Any]],
+    path: Path,
+    *,
+    numeric: Container[str],
+) -> None:
+    """Write a sheet as engineers do: headings, a row of units, both frozen, numbers formatted.
+
+    Texts of the columns ``numeric`` are numbers where they can be; no text is a formula.
+    """
     from openpyxl import Workbook  # noqa: PLC0415 (an extra)
     from openpyxl.styles import Alignment, Font  # noqa: PLC0415
     from openpyxl.utils import get_column_letter  # noqa: PLC0415
@@ -196,10 +224,12 @@ def _write_sheet(headings: Sequence[str], lines: Iterable[Mapping[str, Any]], pa
             value = line.get(name)
             if value is None:
                 continue
+            value = _number_of(value) if name in numeric else value
             cell = page.cell(number, place, value)
             if name in formats:
                 cell.number_format = formats[name]
             elif isinstance(value, str):
+                cell.data_type = "s"  # not a formula
                 widest[place - 1] = max(widest[place - 1], min(len(value), 60))
     for place, width in enumerate(widest, 1):
         page.column_dimensions[get_column_letter(place)].width = max(8, width + 2)

@@ -53,6 +53,10 @@ WALTHER = "walther"
 """The law of the viscosities of a data sheet."""
 _DATA_SHEET = ("lubricant.viscosity.nu_40", "lubricant.viscosity.nu_100")
 """Keys of Walther's law alone: a row that states them replaces another law of the template."""
+_SWITCHES = {"yes": True, "true": True, "x": True, "ja": True} | dict.fromkeys(
+    ("no", "false", "nein"), False
+)
+"""Words below the name of a table, such as ``thermal``, and whether the contact has it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -262,8 +266,15 @@ def tables_of(base: dict[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]
     elif any(key in stated for key in _DATA_SHEET) and _law_of(tables) != WALTHER:
         tables = changed(tables, "lubricant.viscosity", {"law": WALTHER})
     for key, value in stated.items():
-        tables = changed(tables, key, value)
+        tables = changed(tables, key, _switched(key, value, base))
     return tables
+
+
+def _switched(key: str, value: Any, base: Mapping[str, Any]) -> Any:
+    """Return the table that a row switches on or off, as that of the template; else ``value``."""
+    is_table = "." not in key and key != TITLE
+    switch = _SWITCHES.get(str(value).lower()) if is_table else None
+    return value if switch is None else switch and base.get(key, {})
 
 
 def _law_of(tables: Mapping[str, Any]) -> str:

@@ -169,7 +169,7 @@ def check_columns(columns: Sequence[Column], lines: Sequence[Sequence[Any]]) -> 
         if one.key is not None or not one.heading:
             continue
         values = [line[place] for line in lines if line[place] is not None]
-        numeric = [not isinstance(plain_value(str(value)), str) for value in values]
+        numeric = [isinstance(plain_value(str(value)), int | float) for value in values]
         if one.unit or (values and all(numeric)):
             known = [*_KEYS, *_paths()]
             word = re.split(r"[\[(/]", one.heading)[0].strip().lower()

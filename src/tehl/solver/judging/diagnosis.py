@@ -16,6 +16,7 @@ from tehl.estimate.nodes import expected_points, film_to_resolve
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.spin import LESS_SPIN, flooded_reach, outside_by_spin
 from tehl.estimate.summits import shared_load
+from tehl.lubricant.shear import Eyring, ShearModel
 from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.result.solution import Hint, Settings, Status
 from tehl.result.transient import TIME_OVER
@@ -31,6 +32,8 @@ MOST_WIDENED = 2.0
 with 2.9 by a tilt and 4.5 by a crown (M = 12, L = 15) they diverge."""
 MOST_LOAD = 0.5
 """Part of the load on solids from which on the film decides no number of nodes."""
+USUAL_STRESS = 5e6
+"""Eyring stress of a usual oil [Pa]."""
 GLASS = 12.0
 """Decimal logarithm of the viscosity at which an oil is a glass [Pa s]."""
 LESS_ROUGH = Hint(
@@ -254,11 +257,16 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
             f"{_round(stress)} times the mean pressure of {pressure / 1e9:.2g} GPa; "
             f"oils reach at most {LARGEST_CREDIBLE:g} times."
         ),
-        hint=Hint(
-            "oils shear at such stresses.",
-            {"lubricant.shear": {"law": "eyring", "stress": "5 MPa"}},
-        ),
+        hint=_hint_to_shear(problem.lubricant.shear),
     )
+
+
+def _hint_to_shear(stated: ShearModel) -> Hint:
+    """Return the hint to the law of a usual oil; to less sliding of an oil that has it."""
+    if isinstance(stated, Eyring) and stated.stress <= USUAL_STRESS:
+        return Hint("Take a slide_roll_ratio nearer to zero: this oil shears as easily as others.")
+    settings: Settings = {"lubricant.shear": {"law": "eyring", "stress": "5 MPa"}}
+    return Hint("oils shear at such stresses.", settings)
 
 
 def _glass(problem: ContactProblem) -> Iterator[LikelyCause]:

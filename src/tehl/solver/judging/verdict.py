@@ -122,10 +122,12 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     level, points = run.finest, run.finest.grid.points
     smallest = level.film.h.min()
     if not is_resolved(level):
+        least = f"thinner than its equations are solved for, H = {level.equations.floor:.3g},"
         return _failed(
             "film_not_positive",
-            f"The discrete film is not positive on {grid_size(points)} (smallest H = "
-            f"{smallest:.3g}): the grid is too coarse for the film.",
+            f"The discrete film is {'not positive' if smallest <= 0.0 else least} on "
+            f"{grid_size(points)} (smallest H = {smallest:.3g}): the grid is too coarse for the "
+            "film.",
             grid_hint(points, run.hierarchy.scaled),
         )
     if errors is None:
