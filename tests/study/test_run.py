@@ -39,7 +39,7 @@ def test_each_case_has_a_row_with_the_numbers_of_its_summary(finished):
 
 
 def test_films_along_an_axis_are_smooth_though_grids_and_domains_differ():
-    speeds = np.geomspace(0.3, 3.0, 7)
+    speeds = np.geomspace(0.15, 3.0, 7)
     problem, options = case_from_tables(ball_tables())
     found = study(problem, {"contact.entrainment_speed": speeds.tolist()}, options)
     assert found["cost.points.0"].nunique() > 1
