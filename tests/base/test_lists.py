@@ -4,7 +4,7 @@ import pytest
 from openpyxl import Workbook
 
 from tehl.base.errors import InputError
-from tehl.base.lists import Doubtful, lines_of, lines_of_file
+from tehl.base.lists import Doubtful, lines_of, lines_of_file, spelling_of
 from tehl.contact.columns import read_columns
 
 TEXT = "u_m [m/s];T [°C]\n0,5;40\n"
@@ -15,6 +15,8 @@ def test_a_list_of_any_spreadsheet_is_read(tmp_path, encoding):
     path = tmp_path / "list.csv"
     path.write_bytes(TEXT.encode(encoding))
     assert lines_of(path) == [(1, ["u_m [m/s]", "T [°C]"]), (2, ["0.5", "40"])]
+    # by a mark spreadsheets that do not write UTF-8 read the answers
+    assert spelling_of(path).encoding == ("utf-8" if encoding == "utf-8" else "utf-8-sig")
 
 
 @pytest.mark.parametrize(

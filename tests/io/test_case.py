@@ -169,6 +169,7 @@ MISTAKES = [
         'dynamics.frequencies = "1 kHz"',
         "must be a list, in square br",
     ),
+    ("lubricant.density.beta=2", "lubricant.density.beta = 2", "is in 1/K as a bare number"),
     ("numerics.max_memory=-1", "numerics.max_memory = -1", "is not an amount of memory, su"),
     ("numerics.max_memory=1e30", "numerics.max_memory = 1e+30", "is not an amount of memory, su"),
     ("lubricant.temperature=0.0", "lubricant.temperature = 0", "is not above absolute zero"),

@@ -84,8 +84,10 @@ def spelling_of(path: Path) -> Spelling:
     if path.suffix.lower() in _READERS:
         return Spelling()
     content = path.read_bytes()
-    encoding = "utf-8-sig" if content.startswith(BOM_UTF8) else "utf-8"
-    return replace(_spelling(decoded(content)), encoding=encoding)
+    text, is_plain = decoded(content), not content.startswith(BOM_UTF8)
+    # a spreadsheet program that does not write UTF-8 reads it by the mark at its beginning
+    is_plain = is_plain and text.encode("utf-8") == content
+    return replace(_spelling(text), encoding="utf-8" if is_plain else "utf-8-sig")
 
 
 def _spelling(text: str) -> Spelling:

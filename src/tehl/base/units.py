@@ -323,7 +323,7 @@ PressureCoefficient = Annotated[
 ]
 Temperature = Annotated[float, Quantity("a temperature", "K", '"40 degC"')]
 TemperatureCoefficient = Annotated[
-    float, Quantity("an inverse temperature", "1/K", '"6.5e-4 1/K"', "non-negative")
+    float, Quantity("an inverse temperature", "1/K", '"6.5e-4 1/K"', "non-negative", most=1.0)
 ]
 SignedTemperatureCoefficient = Annotated[
     float, Quantity("an inverse temperature", "1/K", '"-7e-4 1/K"', "any")

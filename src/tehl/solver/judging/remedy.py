@@ -189,7 +189,8 @@ def _default_domain(failed: Solution) -> Iterator[Trial]:
     """Yield the default domain in place of a stated one."""
     if isinstance(failed.options.domain, Domain):
         options = failed.options.model_copy(update={"domain": "auto", "edges": "auto"})
-        yield {"numerics.domain": False, "numerics.edges": False}, failed.problem, options
+        stated = ("domain", "edges") if failed.options.edges != "auto" else ("domain",)
+        yield {f"numerics.{name}": False for name in stated}, failed.problem, options
 
 
 def _errors(failed: Solution, least: float) -> Iterator[Trial]:
