@@ -41,9 +41,10 @@ LEAST_LEFT = 0.4
 many: with 0.55 of it by the supply a drive (M = 34,300) needs 1.7 times as many."""
 FLOODED_PART, EXACT_PART, EXACT_LOAD = 0.55, 0.4, 5e3
 """Error that a flooded film to which ``supply.ratio`` is stated may pass on, over that to reach of
-the starved one, which has it beside its own: with 0.5 an inner ring (M = 3,700) needs another grid,
-with 1 a starved rig (M = 811). The second from a Moes load M on: the flooded film then takes a
-tenth of the time of the other, and with 0.7 a ring (M = 30,000) just misses 1 %."""
+the starved one, which has it beside its own: of 49 starved contacts (M = 9 to 20,000) four need
+another grid with 0.7 that do not with 0.55. The second from a Moes load M on: an isothermal
+flooded film then takes a tenth of the time of the other, and with 0.7 a ring (M = 30,000) just
+misses 1 %."""
 BETWEEN, MOST_OTHERS = 1.5, 3
 """Most intervals along x of another grid over those of the last, as half the mesh width costs four
 times as much; and how many other grids are tried."""
