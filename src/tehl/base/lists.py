@@ -3,7 +3,6 @@
 import csv
 import re
 import tomllib
-from codecs import BOM_UTF8
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -84,9 +83,9 @@ def spelling_of(path: Path) -> Spelling:
     if path.suffix.lower() in _READERS:
         return Spelling()
     content = path.read_bytes()
-    text, is_plain = decoded(content), not content.startswith(BOM_UTF8)
-    # a spreadsheet program that does not write UTF-8 reads it by the mark at its beginning
-    is_plain = is_plain and text.encode("utf-8") == content
+    text = decoded(content)
+    # a spreadsheet program that does not write plain UTF-8 reads it by the mark at its beginning
+    is_plain = text.encode("utf-8") == content
     return replace(_spelling(text), encoding="utf-8" if is_plain else "utf-8-sig")
 
 

@@ -53,10 +53,8 @@ WALTHER = "walther"
 """The law of the viscosities of a data sheet."""
 _DATA_SHEET = ("lubricant.viscosity.nu_40", "lubricant.viscosity.nu_100")
 """Keys of Walther's law alone: a row that states them replaces another law of the template."""
-_SWITCHES = {"yes": True, "true": True, "x": True, "ja": True} | dict.fromkeys(
-    ("no", "false", "nein"), False
-)
-"""Words below the name of a table, such as ``thermal``, and whether the contact has it."""
+_ON, _OFF = ("yes", "true", "x", "ja"), ("no", "false", "nein")
+"""Words below the name of a table, such as ``thermal``, which a contact has, or has not."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -272,9 +270,10 @@ def tables_of(base: dict[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]
 
 def _switched(key: str, value: Any, base: Mapping[str, Any]) -> Any:
     """Return the table that a row switches on or off, as that of the template; else ``value``."""
-    is_table = "." not in key and key != TITLE
-    switch = _SWITCHES.get(str(value).lower()) if is_table else None
-    return value if switch is None else switch and base.get(key, {})
+    word = str(value).lower()
+    if "." in key or key == TITLE or word not in (*_ON, *_OFF):
+        return value
+    return base.get(key, {}) if word in _ON else False
 
 
 def _law_of(tables: Mapping[str, Any]) -> str:

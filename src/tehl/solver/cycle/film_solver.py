@@ -373,7 +373,10 @@ class FilmSolver(GridIteration):
         return accepted
 
     def _runs_away(self) -> bool:
-        """Return whether undamped heat or thinning diverged: so it does on the next grid."""
+        """Return whether undamped heat or thinning diverged.
+
+        So it does on the next grid: of 300 machines' contacts all eight that were tried there.
+        """
         last = self.traces[-1]
         return last.diverged and last.coupled and self.strategy.damping == 1.0
 

@@ -32,8 +32,8 @@ MOST_WIDENED = 2.0
 with 2.9 by a tilt and 4.5 by a crown (M = 12, L = 15) they diverge."""
 MOST_LOAD = 0.5
 """Part of the load on solids from which on the film decides no number of nodes."""
-USUAL_STRESS = 5e6
-"""Eyring stress of a usual oil [Pa]."""
+THINNING = {"law": "eyring", "stress": "5 MPa"}
+"""The shear law of a usual oil."""
 GLASS = 12.0
 """Decimal logarithm of the viscosity at which an oil is a glass [Pa s]."""
 LESS_ROUGH = Hint(
@@ -263,10 +263,10 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
 
 def _hint_to_shear(stated: ShearModel) -> Hint:
     """Return the hint to the law of a usual oil; to less sliding of an oil that has it."""
-    if isinstance(stated, Eyring) and stated.stress <= USUAL_STRESS:
+    usual = Eyring.model_validate(THINNING)
+    if isinstance(stated, Eyring) and stated.stress <= usual.stress:
         return Hint("Take a slide_roll_ratio nearer to zero: this oil shears as easily as others.")
-    settings: Settings = {"lubricant.shear": {"law": "eyring", "stress": "5 MPa"}}
-    return Hint("oils shear at such stresses.", settings)
+    return Hint("oils shear at such stresses.", {"lubricant.shear": THINNING})
 
 
 def _glass(problem: ContactProblem) -> Iterator[LikelyCause]:

@@ -14,13 +14,11 @@ from tehl.estimate.nodes import FAMILIES, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.result.solution import Hint, Settings, Solution, settings_text
 from tehl.solver.cost import LEAST_SECONDS, working_time
-from tehl.solver.judging.diagnosis import error_setting
+from tehl.solver.judging.diagnosis import THINNING, error_setting
 from tehl.solver.monitor import Monitor
 
 ERRORS = (0.5, 0.2, 0.05)
 """Relative errors of the film that are tried, coarsest first; the smallest that works is named."""
-THINNING = {"law": "eyring", "stress": "5 MPa"}
-"""The shear law of a usual oil."""
 TRIAL_TIME_FACTOR = 3.0
 """Time for the trials over that of the failed solve, up to ``numerics.max_time``."""
 Solve = Callable[[ContactProblem, Options], Solution]
