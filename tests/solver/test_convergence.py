@@ -49,7 +49,7 @@ from tehl.solver.judging.value_errors import (
     UNRESOLVED_STRESS,
     further_errors,
 )
-from tehl.solver.physics.lag import LARGEST_CONTINUED, LARGEST_LOG_STEP, Lag, damped
+from tehl.solver.physics.lag import LARGEST_LOG_STEP, Lag, damped
 
 
 @pytest.mark.parametrize("damping", [0.3, 0.5])
@@ -352,16 +352,6 @@ def test_a_film_behind_its_heat_is_driven_by_a_part_of_the_slope_until_it_has_ca
     for _ in range(40):
         old = lag.damped(old, new, ones)
     assert lag.part == pytest.approx(1.0, abs=1e-9)
-
-
-def test_a_tangent_beside_a_meniscus_leaves_the_mobility_finite() -> None:
-    """A tenth of the slope to the power of thousands is not a number."""
-    new = factors(0.0, 1e3, 1.0, 1.0, 1.0)
-    lag, ones = Lag(0.5, heats=True), np.ones(1)
-    lag.damped(new._replace(mobility=ones), new, ones)
-    heated = Heated(np.ones(1), ones, ones, np.array([2000.0]), ones)
-    lag.complete(heated)
-    assert heated.mobility == pytest.approx(np.exp(LARGEST_CONTINUED))
 
 
 def test_a_sweep_changes_the_factors_by_a_limited_step() -> None:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from benchmarks import machines
 from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import ConvergenceError, Result, load
 from tehl.api.solvers import solve, solve_passes, solve_transient
@@ -519,3 +520,13 @@ def test_the_flooded_film_that_a_supply_is_part_of_takes_half_of_the_lines() -> 
     assert errors.central < 0.01
     central = finer.film_scaled.central
     assert found.film_scaled.central == pytest.approx(central, rel=errors.central)
+
+
+def test_a_hot_film_keeps_its_mobility_beside_the_meniscus() -> None:
+    """An inner ring with 93 % of its oil (M = 7,607, L = 15): the first attempt converges.
+
+    Where it became infinite a coarse grid was lost, and 385 lines were tried in place of 193.
+    """
+    found = solve(machines.contact(70, 61)[2], Options(max_time=30.0))
+    assert found.status.converged
+    assert found.scaled.film.shape == (193, 385)

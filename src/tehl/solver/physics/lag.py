@@ -20,12 +20,6 @@ LARGEST_BOUNDED_STEP = 2.0
 """The same where a boundary film bounds the film: it cannot collapse before the pressure falls."""
 
 
-LARGEST_CONTINUED = 2.0
-"""Largest logarithm that the tangent adds to a mobility: beside a meniscus the exponents of a film
-that thins reach thousands, and a part of a tenth to such a power is infinite. With 30 six starved
-hot contacts take the same time within a tenth."""
-
-
 class Lag:
     """How far mobility and density of a film are behind those of the last sweep.
 
@@ -59,8 +53,7 @@ class Lag:
     def complete(self, heated: properties.Heated) -> None:
         """Continue the mobility of a sweep to the slopes of the film, along its tangent."""
         if self.part is not None:
-            added = (1.0 - _exponent(heated)) * np.log(self.part)
-            heated.mobility[:] *= np.exp(np.minimum(added, LARGEST_CONTINUED))
+            heated.mobility[:] *= self.part ** (1.0 - _exponent(heated))
 
     def damped(
         self,

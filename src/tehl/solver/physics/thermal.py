@@ -393,11 +393,11 @@ class Coupling:
         if self.carries_mean:
             heated.density[:] = state.view("mean_density").T
         heated.mobility[:] /= self.scaled.groups.lambda_bar
+        fine.cavity.limit(fine, heated)  # first: the lag was noted with these exponents
         self.lag.complete(heated)
         factors = properties.Factors(*np.empty((7, *shape)))
         # at H = 1 the conductance is the mobility
         isothermal = properties.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
-        fine.cavity.limit(fine, heated)
         thickness = fine.film.conducting(fine.equations.floor)
         properties.factors_of(heated, isothermal, fine.equations.flow, thickness, factors)
         before = fine.factors
