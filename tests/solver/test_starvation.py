@@ -523,10 +523,10 @@ def test_the_flooded_film_that_a_supply_is_part_of_takes_half_of_the_lines() -> 
 
 
 def test_a_hot_film_keeps_its_mobility_beside_the_meniscus() -> None:
-    """An inner ring with 93 % of its oil (M = 7,607, L = 15): the first attempt converges.
+    """An inner ring with 93 % of its oil (M = 7,607, L = 15): 20 cycles on 193 x 193 nodes.
 
-    Where it became infinite a coarse grid was lost, and 385 lines were tried in place of 193.
+    Where it became infinite that of 97 x 97 nodes was lost, and from the dry pressure it took 37.
     """
     found = solve(machines.contact(70, 61)[2], Options(max_time=30.0))
     assert found.status.converged
-    assert found.scaled.film.shape == (193, 385)
+    assert sum(one.points == (193, 193) for one in found.history) < 30
