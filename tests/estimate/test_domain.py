@@ -10,14 +10,18 @@ from hypothesis import strategies as st
 from tehl.api.solvers import solve
 from tehl.base.errors import InputError
 from tehl.contact.options import Domain, Options, coarsenable, coarsenings
+from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import (
     ENTRY_PART,
     INLET_HEAT_PART,
     LARGEST_DOMAIN_FACTOR,
     SLENDER,
+    THINNER_PART,
+    _rectangle,
     chosen_domain,
     far_field_error,
     recommended_domain,
+    thinner_error,
 )
 from tehl.estimate.entering import entry_error, heat_across, warmed_upstream
 from tehl.estimate.nodes import expected_points, planned
@@ -239,3 +243,24 @@ def test_the_domain_leaves_the_oil_that_enters_a_part_of_the_error_or_is_the_lar
     assert 1.0 <= factor <= LARGEST_DOMAIN_FACTOR * (1.0 + 1e-9)
     if factor < LARGEST_DOMAIN_FACTOR * (1.0 - 1e-9):
         assert entry_error(scaled, domain) <= ENTRY_PART * error
+
+
+def test_oil_that_thins_upstream_gets_a_wider_domain_and_reaches_the_error():
+    case = moes_contact(2.3, 10.5)
+    thin = case.model_dump(exclude_none=True)
+    thin["contact"]["slide_roll_ratio"] = 1.9
+    thin["lubricant"]["shear"] = {"law": "limiting", "slope": 0.03}
+    scaled, error = ScaledProblem.of(ContactProblem.model_validate(thin)), 0.02
+    usual, wide = chosen_domain(ScaledProblem.of(case), error), chosen_domain(scaled, error)
+    assert wide.x[0] < 1.2 * usual.x[0]
+    assert wide.y[0] < 1.2 * usual.y[0]
+    assert thinner_error(scaled, wide) <= THINNER_PART * error < thinner_error(scaled, usual)
+    # the estimate bounds what the film changes by on the wider domain
+    further = _rectangle(-1.5 * wide.x[0], 1.5 * wide.x[1], 1.5 * wide.y[1])
+    here, there = (
+        solve(scaled.problem, Options(points=points, edges="far_field", domain=domain)).film_scaled
+        for domain, points in ((usual, 193), (further, 385))
+    )
+    changed = abs(here.central / there.central - 1.0)
+    assert 0.1 < changed / thinner_error(scaled, usual) < 1.0
+    assert thinner_error(ScaledProblem.of(case), usual) == 0.0

@@ -14,11 +14,11 @@ from tehl.api.results import ConvergenceError
 from tehl.api.solvers import solve, solve_transient
 from tehl.contact.options import Domain, Options
 from tehl.contact.supply import Supply
-from tehl.estimate.domain import domain_of
+from tehl.estimate.domain import domain_of, recommended_domain
 from tehl.estimate.grid import Grid
 from tehl.estimate.memory import RESTING_PART, needed_memory
 from tehl.estimate.nodes import finest_grid
-from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.scaling import ScaledProblem, groups
 from tehl.estimate.settled import settled
 from tehl.estimate.starvation import part_passed_on
 from tehl.estimate.third_order import third_order_bar
@@ -198,6 +198,18 @@ def test_a_stated_domain_that_is_too_narrow_for_the_far_field_fails_with_a_hint(
     for name in ("central", "minimum"):
         there, bar = getattr(usual, name), getattr(found.errors, name)
         assert getattr(found.film_scaled, name) == pytest.approx(there, rel=bar)
+
+
+def test_a_mesh_is_refined_until_it_leaves_as_much_as_the_domain_that_misses_the_error():
+    case = moes_contact(2.3, 10.5).model_dump(exclude_none=True)
+    case["contact"]["slide_roll_ratio"] = 1.9
+    case["lubricant"]["shear"] = {"law": "limiting", "slope": 0.03}  # it thins upstream
+    problem = ContactProblem.model_validate(case)
+    domain = recommended_domain(groups(problem), 0.02, near=True)
+    with pytest.raises(ConvergenceError, match="are due to numerics.domain") as caught:
+        solve(problem, Options(domain=domain, edges="far_field"))
+    errors = caught.value.result.errors
+    assert 0.01 < errors.domain < errors.central < 2.0 * errors.domain
 
 
 NAMES = ("pressure_max", "traction_mid_film", "film_rise_max", "mid_film_rise_central")

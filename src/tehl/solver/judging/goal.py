@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from tehl.base.units import percentage
 from tehl.base.wording import grid_size
 from tehl.contact.options import MOST_NODES_PER_AXIS, Domain, Options, can_be_halved
+from tehl.estimate.domain import thinner_error
 from tehl.estimate.memory import RESTING_PART, USUAL_MEMORY, memory_limit, needed_memory
 from tehl.estimate.nodes import FAMILIES, FAVOURED, most_lines, side_bar
 from tehl.estimate.scaling import ScaledProblem
@@ -48,6 +49,9 @@ misses 1 %."""
 BETWEEN, MOST_OTHERS = 1.5, 3
 """Most intervals along x of another grid over those of the last, as half the mesh width costs four
 times as much; and how many other grids are tried."""
+DOMAIN_LEAVES = 2.0
+"""Error of the central film over that of the domain, where this exceeds the error to reach, from
+which a finer grid follows all the same."""
 PART_OF_FURTHER = 0.25
 """Part of an iteration error that five further cycles leave where films of scarce oil converge by
 0.75 per cycle, as hot ones do."""
@@ -351,13 +355,9 @@ class Goal:
         needed = self._needed((nx, ny))
         available, supply = memory_limit(self.options), supply_error(self.scaled)
         self.obstacle = self.advice = ""
-        if errors is not None and errors.domain > self.target:
-            cause = "the domain, upstream of which the oil warms or cools"
-            if spin_error(self.scaled, level.grid.domain) > 0.5 * errors.domain:
-                cause = "the pressure that spin makes outside the domain, in the gap of an ellipse"
-                self.advice = LESS_SPIN
-            if isinstance(self.options.domain, Domain):
-                cause = "numerics.domain"
+        least = math.inf if errors is None else errors.central / DOMAIN_LEAVES
+        if errors is not None and errors.domain > max(self.target, least):
+            cause, self.advice = self._beyond(level.grid.domain, errors.domain)
             self.obstacle = f"{percentage(errors.domain)} are due to {cause}"
         elif errors is not None and supply > self.target and errors.central < 2.0 * supply:
             self.obstacle = (
@@ -376,6 +376,17 @@ class Goal:
                 f"{limit:g} s"
             )
         return not self.obstacle
+
+    def _beyond(self, domain: Domain, error: float) -> tuple[str, str]:
+        """Return what beyond a domain causes most of an error of the film, and what would help."""
+        if spin_error(self.scaled, domain) > 0.5 * error:
+            cause = "the pressure that spin makes outside the domain, in the gap of an ellipse"
+            advice = LESS_SPIN
+        else:
+            thins = thinner_error(self.scaled, domain) > 0.5 * error
+            happens = "thins in shear" if thins else "warms or cools"
+            cause, advice = f"the domain, upstream of which the oil {happens}", ""
+        return "numerics.domain" if isinstance(self.options.domain, Domain) else cause, advice
 
 
 def _over_left(errors: ErrorEstimate, target: float) -> float | None:
