@@ -10,10 +10,12 @@ from tehl.contact.supply import Supply
 from tehl.contact.transient import Transient
 from tehl.estimate.domain import domain_of, far_field_error
 from tehl.estimate.duration import bend_between
+from tehl.estimate.entering import entry_error
 from tehl.estimate.nodes import (
     ENOUGH_LINES,
     FAVOURED,
     FEWEST_LINES,
+    LEAST_MESH_PART,
     LIMITED_RATIO,
     LINES_OF_SCARCE,
     LONGEST_CELL,
@@ -29,7 +31,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
 from tehl.estimate.summits import _shared_by_summits, shared_load
 from tehl.estimate.third_order import LEAST_SHARED, third_order_bar
-from tests.reference import moes_contact, touching_contact
+from tests.reference import heated_contact, moes_contact, touching_contact
 
 
 @pytest.mark.parametrize(("radius_ratio", "margin"), [(12.0, 1.0), (2.0, MARGIN_OF_MIDDLE)])
@@ -107,6 +109,32 @@ def test_lines_leave_no_more_of_the_error_than_they_may(
         assert side_bar(scaled, domain, ny) <= left
     elif not is_thinnest_at_exit(scaled):
         assert lines_bar(scaled, domain, ny) <= (LINES_OF_SCARCE if ratio else ENOUGH_LINES) * left
+
+
+def test_heat_upstream_takes_no_part_of_the_error_of_scarce_oil() -> None:
+    case = moes_contact(200.0, 28.0).model_dump(exclude_none=True) | {"supply": {"ratio": 0.6}}
+    case["contact"]["slide_roll_ratio"] = 1.0
+    case["lubricant"]["viscosity"]["gamma"] = 0.04
+    case["lubricant"] |= {"conductivity": 0.14, "heat_capacity": 2000.0}
+    cold, hot = (
+        ScaledProblem.of(ContactProblem.model_validate(one))
+        for one in (case, case | {"thermal": {}})
+    )
+    options = Options(error=0.01)
+    assert entry_error(hot, domain_of(hot, options)) == 0.0
+    assert planned(hot, options).shape[0] <= 1.5 * planned(cold, options).shape[0]
+
+
+def test_the_mesh_is_left_a_part_of_the_error_that_the_bodies_exceed() -> None:
+    case, error = heated_contact(0.5), 0.003
+    warm = case.with_bodies(*2 * (case.inlet_temperature + 60.0,))
+    plans = {}
+    for part in (1.0, LEAST_MESH_PART):
+        scaled, options = ScaledProblem.of(warm), Options(error=part * error)
+        plans[part] = planned(scaled, options).shape
+        assert entry_error(scaled, domain_of(scaled, options)) > options.error
+    cold = planned(ScaledProblem.of(case), Options(error=LEAST_MESH_PART * error)).shape
+    assert plans[1.0][0] <= 2.0 * cold[0] < plans[LEAST_MESH_PART][0]
 
 
 def test_no_more_columns_are_planned_for_lines_than_are_known_to_be_needed() -> None:

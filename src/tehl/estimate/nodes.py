@@ -18,11 +18,9 @@ from tehl.estimate.starvation import is_starved, supplied_film, supply_ratio
 from tehl.estimate.summits import shared_load
 from tehl.estimate.third_order import third_order_bar
 
-PART_IN_STEP = 0.25
+PART_IN_STEP, LEAST_LAMBDA = 0.25, 0.3
 """Part of the error to reach by which a load, a speed or a radius may be off a straight line within
-a time step."""
-LEAST_LAMBDA = 0.3
-"""Film over sigma below which asperities make bars no smaller."""
+a time step; and film over sigma below which asperities make bars no smaller."""
 FAMILIES = tuple(2**k * n + 1 for k in range(2, 9) for n in (16, 20, 24, 28))
 """Nodes from which `expected_points` chooses; at least three grids."""
 ROLLER_NODES, LEAST_ROWS = tuple(one for one in FAMILIES if one > 256), 128
@@ -35,10 +33,11 @@ BAR, BAR_COUPLED, EXPECTED_BAR_MARGIN, MARGIN_OF_MIDDLE = 0.24, 1.16, 1.25, 1.1
 """Factors of `expected_bar`: of all contacts, of heated and thinning ones, the margin with which
 four of five contacts reach the error on the expected grid, and that of the middle of smooth films
 of third order, which nine of ten reach: with 1 those that miss it take what others save."""
-EXTRAPOLATED, HIGHER = 0.35, (2.5, 1.5)
-"""Bar of an extrapolated film over that without, where large; factor and power where small."""
-SLENDER_RATIO_OF_NODES = 1.5
-"""a_y/a_x from which half as many nodes along y are the fewest that are planned."""
+LEAST_MESH_PART = 0.25
+"""Least part of the error that is left to the mesh where the oil that enters takes more."""
+EXTRAPOLATED, HIGHER, SLENDER_RATIO_OF_NODES = 0.35, (2.5, 1.5), 1.5
+"""Bar of an extrapolated film over that without, where large; factor and power where small; and
+a_y/a_x from which half as many nodes along y are the fewest that are planned."""
 LIMITED_RATIO, LIMITED_SPEED = 3.0, 20.0
 """a_y/a_x from which, and Moes speed L up to which, flooded films with a wedge of third order are
 planned without a margin, as their bars hardly exceed the expected ones: 13 of 16 such contacts
@@ -292,7 +291,8 @@ def _third_order_points(
     They are more than ``least`` along x. Films at the sides of slender contacts and circles may err
     by ``sides`` times as much. Without a margin the fewest in all are taken.
     """
-    left = _left_to_the_mesh(scaled.entering, domain, error - entry_error(scaled, domain))
+    left = max(error - entry_error(scaled, domain), LEAST_MESH_PART * error)
+    left = _left_to_the_mesh(scaled.entering, domain, left)
     groups = scaled.groups
     if groups.skew or groups.ellipticity < 1.0:
         return _wide_or_turned_points(scaled, domain, left, least)
