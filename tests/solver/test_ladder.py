@@ -25,6 +25,8 @@ from tehl.solver.cycle.ladder import (
     BETWEEN_ROUGH,
     COUPLED,
     STARVED_DAMPING,
+    STEEPEST_SPEED,
+    THIRD_ORDER_STRATEGIES,
     TOUCHING,
     UNCOMBINED,
     UNDAMPED,
@@ -151,6 +153,19 @@ def test_steep_fronts_are_tried_without_combined_cycles_first(
         rungs = ladder(ScaledProblem.of(problem), OPTIONS, rough=False)
         third = [one for one in rungs if one.wedge_order is None]
         assert third[place] is UNCOMBINED
+
+
+def test_the_steepest_fronts_are_tried_with_a_wedge_of_second_order_after_two_strategies(
+    hybrid_bearing: ContactProblem,
+) -> None:
+    tables, third = hybrid_bearing.model_dump(exclude_none=True), []
+    for speed in (14.0, 25.0):
+        tables["contact"] |= {"entrainment_speed": None, "moes_speed": speed}
+        scaled = ScaledProblem.of(ContactProblem.model_validate(tables))
+        rungs = ladder(scaled, OPTIONS, rough=False)
+        third.append(next(k for k, one in enumerate(rungs) if one.wedge_order == 2))
+        assert (scaled.groups.L > STEEPEST_SPEED) == (third[-1] == THIRD_ORDER_STRATEGIES)
+    assert third[0] > third[1]
 
 
 @pytest.mark.parametrize("thins", [False, True])
