@@ -236,6 +236,7 @@ def test_a_failure_makes_no_reference_runs(wavy, solver, run):
         (["ball.toml", "-o", "pipe"], "is a pipe, not a file"),
         (["ball.toml", "-o", "to_pipe"], "is a pipe, not a file"),
         (["ball.toml", "-o", "loop"], "cannot be written"),
+        (["ball.toml", "-o", "film.csv"], "NetCDF files, such as film.nc; tehl export"),
         (["ball.toml", "-o", "ball.toml/out.nc"], "cannot be written: not a directory"),
         (["ball.toml", "-o", "n" * 300], "name too long"),
         (["ball.toml", "-o", "new", "--plot", "new"], "conflict"),

@@ -69,6 +69,13 @@ def test_a_roughness_gives_lambda_by_both_films_and_the_regime_in_words(rms, wor
     assert f"{shown} film: {words}, Tallian 1967)\n" in as_text(case)
 
 
+def test_lambda_between_asperities_is_that_of_smooth_surfaces_and_the_load_decides_the_regime():
+    problem, options = case_from_tables(tomllib.loads(template_text("mixed")))
+    case = explain(problem, options)
+    shown = f"{case.lambda_minimum:.3g} by the minimum film of smooth surfaces: mixed lubrication"
+    assert f"{shown}, as asperities carry {100.0 * case.share:.3g} %" in as_text(case)
+
+
 def steel(**odd: float) -> dict[str, float]:
     """Return the table of a steel with other values."""
     usual = {"density": 7850, "heat_capacity": 470, "conductivity": 46}

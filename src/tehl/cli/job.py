@@ -24,7 +24,7 @@ from tehl.estimate.memory import check_memory
 from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.io.checkpoint import checkpoint_of, fingerprint
-from tehl.io.store import save
+from tehl.io.store import check_name, save
 from tehl.result.transient import TIME_OVER
 
 if TYPE_CHECKING:
@@ -100,6 +100,7 @@ def _ask(problem: ContactProblem, options: Options, job: Job) -> None:
 def _check_outputs(job: Job) -> None:
     target, folder = job.target, job.plot
     check_writable(target, sources=(job.case,))
+    check_name(target)
     if job.with_smooth:
         check_writable(smooth_file(target), sources=(job.case,))
     if folder is not None:

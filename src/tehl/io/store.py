@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     import h5netcdf
     import xarray as xr
 
+SUFFIXES = ("", ".nc", ".nc4", ".cdf", ".h5", ".hdf5")
+"""Of names of result files."""
 Kind = TypeVar("Kind", Solution, TransientSolution)
 
 _HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -54,6 +56,27 @@ def to_dataset(result: Solution | TransientSolution) -> "xr.Dataset":
     return xr.Dataset(packed, coords=coords, attrs=attributes(result))
 
 
+def check_name(path: str | Path) -> None:
+    """Check that the name of a result file is one of NetCDF or HDF5, or has no suffix.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        If it is that of another format, which the file would not be.
+    """
+    name = Path(path)
+    if name.suffix.lower() not in SUFFIXES:
+        raise InputError(
+            f"output {shortened(path)}: results are NetCDF files, such as "
+            f"{name.with_suffix('.nc').name}; tehl export writes them as CSV, VTK or npz"
+        )
+
+
 def save(
     result: Solution | TransientSolution, path: str | Path, *, extra: dict[str, Any] | None = None
 ) -> None:
@@ -71,8 +94,10 @@ def save(
     Raises
     ------
     InputError
-        If the file cannot be written there, or ``extra`` is not plain data.
+        If the file cannot be written there, has the suffix of another format, or ``extra`` is not
+        plain data.
     """
+    check_name(path)
     attrs = attributes(result)
     if extra:
         attrs["summary"] = _extended(attrs["summary"], extra)
