@@ -15,11 +15,12 @@ from numpy.polynomial.polynomial import polyder, polyval
 from tehl.base.typing import Array
 from tehl.kernels.energy.column import CONDUCTION
 from tehl.kernels.energy.march import (
-    BACKFLOW_KELVIN,
-    BACKFLOW_PART,
     LARGEST_FALL,
     LARGEST_FLUIDITY_GROWTH,
     LARGEST_KELVIN_STEP,
+    SWINGING_KELVIN,
+    SWINGING_PART,
+    UNDONE,
 )
 from tehl.kernels.energy.records import ETA_TERMS, GHOSTS, Across, Fields, Laws, Model, Surfaces
 
@@ -43,6 +44,7 @@ class Station:
     slide: tuple[Array, Array]  # (u2 - u1)/u_m and u1/u_m at these places, both components
     speed: tuple[Array, Array]
     t: Array  # temperature (n, rows) [K], found
+    step: Array | float = 0.0  # its last mean change
 
 
 # The oil
@@ -338,10 +340,13 @@ def flow(model: Model, at: Station) -> Column:
 def follow(model: Model, at: Station, column: Column, new: Array) -> None:
     """Take the new temperatures; laws and stress follow to first order."""
     step = np.clip(new - at.t, -LARGEST_KELVIN_STEP, LARGEST_KELVIN_STEP)
+    mean = model.across.weights @ step
     if model.terms.over_t == 0.0:
-        swings = (column.u.min(axis=0) < 0.0) & (np.abs(step).max(axis=0) > BACKFLOW_KELVIN)
-        step = step * np.where(swings, BACKFLOW_PART, 1.0)
-    at.t = at.t + step
+        swings = (column.u.min(axis=0) < 0.0) | (mean * at.step < -UNDONE * at.step**2)
+        swings &= np.abs(step).max(axis=0) > SWINGING_KELVIN
+        part = np.where(swings, SWINGING_PART, 1.0)
+        step, mean = part * step, part * mean
+    at.t, at.step = at.t + step, mean
     fall = np.sum(column.share(model.across) * step, axis=0)
     fall = np.clip(fall, -LARGEST_FALL, LARGEST_FALL)
     at.tau_x, at.tau_y = at.tau_x * (1.0 - fall), at.tau_y * (1.0 - fall)
@@ -400,7 +405,7 @@ def sweep(model: Model, fields: Fields, surfaces: Surfaces) -> dict[str, Array]:
         if terms.mirror:
             t[i + GHOSTS, :, :GHOSTS] = t[i + GHOSTS, :, 2 * GHOSTS : GHOSTS : -1]
         given = ("p", "h", "px", "py", "climb_x", "climb_y", "capacity", "conductivity")
-        given += ("over_scale", "tau_x", "tau_y")
+        given += ("over_scale", "tau_x", "tau_y", "step")
         x, y = fields.x[i], fields.y
         at = Station(
             **{name: getattr(fields, name)[i] for name in given},

@@ -98,7 +98,8 @@ def test_no_number_of_nodes_follows_from_the_film_where_solids_carry_the_load(te
     tables = tables_of_text(template_text(template))
     tables["contact"] = tables["contact"] | changes
     if template == "mixed":
-        tables["asperities"]["rms"] = "0.1 um"
+        summits = {"summit_radius": "10 um", "summit_density": "2e10 1/m^2"}
+        tables["asperities"] |= {"rms": "0.1 um"} | summits
         for name in ("surface_1", "surface_2"):
             tables[name].pop("rms_roughness", None)
     problem, _ = case_from_tables(tables)

@@ -300,6 +300,35 @@ def test_hot_oil_that_flows_back_comes_to_rest_on_fine_grids():
     assert max(rises) == pytest.approx(92.0, abs=2.0)
 
 
+BALL_ON_GLASS = """
+contact = { load = "75.8 N", entrainment_speed = "1.51 m/s", slide_roll_ratio = 1.926 }
+surface_1 = { material = "steel", radius = "10 mm" }
+surface_2 = { material = "glass", radius = "inf" }
+thermal = {}
+
+[lubricant]
+temperature = "35 degC"
+conductivity = "0.14 W/m/K"
+heat_capacity = "2000 J/kg/K"
+viscosity = { law = "walther", nu_40 = "22 mm^2/s", nu_100 = "4.3 mm^2/s", alpha = "21.8 1/GPa" }
+density = { law = "dowson-higginson", rho_0 = "880 kg/m^3", beta = "6.5e-4 1/K" }
+shear = { law = "limiting", slope = 0.041 }
+"""
+
+
+def test_oil_that_heats_out_of_its_limiting_stress_does_not_swing(monkeypatch):
+    """Cold oil reaches the limit and heats most; hot oil does not: sweeps changed by 25 K."""
+    problem = case_from_tables(tomllib.loads(BALL_ON_GLASS))[0]
+    rungs = steady.ladder
+    monkeypatch.setattr(steady, "ladder", lambda *args, **named: rungs(*args, **named)[:1])
+    options = Options(points=113, wedge_order=3)
+    found = try_strategies(problem, options, monitor=SILENT, rough=False)[1]
+    assert found.status.converged
+    last = found.history[-1]
+    assert last.temperature_change < 0.1 * last.temperature_rise
+    assert last.cycle < 10
+
+
 def test_errors_of_surface_temperatures_that_do_not_matter_are_left(monkeypatch):
     misfits: list[float] = []
 

@@ -26,11 +26,14 @@ LARGEST_KELVIN_STEP = 40.0  # [K] per solution of a column
 LARGEST_FALL = 0.5  # of the stress with it, relative
 LARGEST_FLUIDITY_GROWTH = 6.0  # of the logarithm of the fluidity with it
 PRESSURISED = 0.02  # pressure above which a change of temperature counts
-BACKFLOW_PART, BACKFLOW_KELVIN = 0.5, 0.5
+SWINGING_PART, SWINGING_KELVIN = 0.5, 0.5
 """Part of a change of temperature that is taken where oil flows back, and the change [K] from which
 on: such oil comes from hotter places, and where it is warmer more of it does. On fine grids whole
 changes grow from sweep to sweep, up to 170 K where 92 K are right (traction drives, M = 60 to
-1,000, L = 17 to 21). Time steps, which have few sweeps, take all."""
+1,000, L = 17 to 21). Time steps, which have few sweeps, take all. So are changes that undo more
+than half of the last one: cold oil reaches a limiting stress, and heats to where it does not, which
+no tangent shows (a ball on glass, M = 295, between 52 and 85 K from sweep to sweep)."""
+UNDONE = 0.5  # part of the last change
 
 
 @helper
@@ -119,8 +122,8 @@ def _take_temperatures(
     """Take the new temperatures; return their mean change and the relative fall of the stress.
 
     No temperature changes by more than `LARGEST_KELVIN_STEP`, and where oil of a steady film flows
-    back large changes are taken by `BACKFLOW_PART`. ``new_t`` becomes the change. Changes at
-    pressures below `PRESSURISED` do not count as the largest one.
+    back or swings large changes are taken by `SWINGING_PART`. ``new_t`` becomes the change. Changes
+    at pressures below `PRESSURISED` do not count as the largest one.
     """
     line, layers, weights = work.lines[place.block], work.layers[place.block], model.across.weights
     rows = lanes(BLOCK * place.block + GHOSTS)
@@ -130,17 +133,21 @@ def _take_temperatures(
         step = lesser(greater(here.new_t - here.t, -LARGEST_KELVIN_STEP), LARGEST_KELVIN_STEP)
         here.new_t = step
         most = greater(most, abs(step))
-    part = 1.0 + mean
+        mean = mean + weights[k] * step
+    i, inner = place.i, lanes(BLOCK * place.block)
+    part, last = 1.0 + 0.0 * mean, fields.step[i, inner]
     if model.terms.over_t == 0.0:
-        swings = (_slowest(layers) < 0.0) & (most > BACKFLOW_KELVIN)
-        part = where(swings, BACKFLOW_PART * part, part)
+        back = (_slowest(layers) < 0.0) & (most > SWINGING_KELVIN)
+        undone = (mean * last < -UNDONE * last * last) & (most > SWINGING_KELVIN)
+        part = where(back, SWINGING_PART * part, where(undone, SWINGING_PART * part, part))
+    mean = part * mean
+    fields.step[i, inner] = mean
     for k in range(layers.shape[0]):
         here = layers[k]
         step = part * here.new_t
         here.new_t = step
         here.t = here.t + step
-        fields.temperature[place.i + GHOSTS, k, rows] = here.t
-        mean = mean + weights[k] * step
+        fields.temperature[i + GHOSTS, k, rows] = here.t
         fall = fall + here.share * step
     counts = where(line.p - PRESSURISED > 0.0, most, 0.0)
     work.change[lanes(0)] = greater(work.change[lanes(0)], counts)

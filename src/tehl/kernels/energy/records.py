@@ -181,7 +181,8 @@ class Fields(NamedTuple):
     pressure that drive the flow, ``climb_x, climb_y`` those that compress the oil; ``capacity,
     conductivity`` ratios to those at ambient pressure, ``over_scale`` one over the stress scale,
     ``sheared`` 1, or 0 where surfaces rub in place of the oil. In and out:
-    ``temperature`` (nx + 4, n, ny + 4), ``tau_x, tau_y`` mid-film stress (nx, ny). In, in a
+    ``temperature`` (nx + 4, n, ny + 4), ``step`` (nx, ny) its last mean change across the film,
+    ``tau_x, tau_y`` mid-film stress (nx, ny). In, in a
     transient run: ``past`` (nx, n, ny) contribution of former temperatures to the time derivative,
     ``pressing`` (nx, ny) time derivative of the pressure. Out: ``mobility, density`` of the
     Reynolds equation, ``mean_density`` across the film, ``odd_density`` (nx, ny) what sliding adds
@@ -204,6 +205,7 @@ class Fields(NamedTuple):
     over_scale: Array
     sheared: Array
     temperature: Array
+    step: Array
     tau_x: Array
     tau_y: Array
     mobility: Array
