@@ -21,6 +21,7 @@ from tehl.kernels.energy.march import (
     SWINGING_KELVIN,
     SWINGING_PART,
     UNDONE,
+    UNDONE_KELVIN,
 )
 from tehl.kernels.energy.records import ETA_TERMS, GHOSTS, Across, Fields, Laws, Model, Surfaces
 
@@ -342,8 +343,9 @@ def follow(model: Model, at: Station, column: Column, new: Array) -> None:
     step = np.clip(new - at.t, -LARGEST_KELVIN_STEP, LARGEST_KELVIN_STEP)
     mean = model.across.weights @ step
     if model.terms.over_t == 0.0:
-        swings = (column.u.min(axis=0) < 0.0) | (mean * at.step < -UNDONE * at.step**2)
-        swings &= np.abs(step).max(axis=0) > SWINGING_KELVIN
+        most = np.abs(step).max(axis=0)
+        swings = (column.u.min(axis=0) < 0.0) & (most > SWINGING_KELVIN)
+        swings |= (mean * at.step < -UNDONE * at.step**2) & (most > UNDONE_KELVIN)
         part = np.where(swings, SWINGING_PART, 1.0)
         step, mean = part * step, part * mean
     at.t, at.step = at.t + step, mean

@@ -33,7 +33,7 @@ changes grow from sweep to sweep, up to 170 K where 92 K are right (traction dri
 1,000, L = 17 to 21). Time steps, which have few sweeps, take all. So are changes that undo more
 than half of the last one: cold oil reaches a limiting stress, and heats to where it does not, which
 no tangent shows (a ball on glass, M = 295, between 52 and 85 K from sweep to sweep)."""
-UNDONE = 0.5  # part of the last change
+UNDONE, UNDONE_KELVIN = 0.5, 5.0  # part of the last change; small ones come to rest by themselves
 
 
 @helper
@@ -138,7 +138,7 @@ def _take_temperatures(
     part, last = 1.0 + 0.0 * mean, fields.step[i, inner]
     if model.terms.over_t == 0.0:
         back = (_slowest(layers) < 0.0) & (most > SWINGING_KELVIN)
-        undone = (mean * last < -UNDONE * last * last) & (most > SWINGING_KELVIN)
+        undone = (mean * last < -UNDONE * last * last) & (most > UNDONE_KELVIN)
         part = where(back, SWINGING_PART * part, where(undone, SWINGING_PART * part, part))
     mean = part * mean
     fields.step[i, inner] = mean
