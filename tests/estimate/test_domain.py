@@ -17,7 +17,6 @@ from tehl.estimate.domain import (
     LARGEST_DOMAIN_FACTOR,
     SLENDER,
     THINNER_PART,
-    _rectangle,
     chosen_domain,
     far_field_error,
     recommended_domain,
@@ -256,7 +255,8 @@ def test_oil_that_thins_upstream_gets_a_wider_domain_and_reaches_the_error():
     assert wide.y[0] < 1.2 * usual.y[0]
     assert thinner_error(scaled, wide) <= THINNER_PART * error < thinner_error(scaled, usual)
     # the estimate bounds what the film changes by on the wider domain
-    further = _rectangle(-1.5 * wide.x[0], 1.5 * wide.x[1], 1.5 * wide.y[1])
+    x, y = (tuple(1.5 * edge for edge in edges) for edges in (wide.x, wide.y))
+    further = Domain(x=x, y=y)
     here, there = (
         solve(scaled.problem, Options(points=points, edges="far_field", domain=domain)).film_scaled
         for domain, points in ((usual, 193), (further, 385))

@@ -34,7 +34,7 @@ BAR, BAR_COUPLED, EXPECTED_BAR_MARGIN, MARGIN_OF_MIDDLE = 0.24, 1.16, 1.25, 1.1
 four of five contacts reach the error on the expected grid, and that of the middle of smooth films
 of third order, which nine of ten reach: with 1 those that miss it take what others save."""
 LEAST_MESH_PART = 0.25
-"""Least part of the error that is left to the mesh where the oil that enters takes more."""
+"""Least part of the error that entering oil leaves; bodies 60 K warmer: 1,537 nodes, not 12,289."""
 EXTRAPOLATED, HIGHER, SLENDER_RATIO_OF_NODES = 0.35, (2.5, 1.5), 1.5
 """Bar of an extrapolated film over that without, where large; factor and power where small; and
 a_y/a_x from which half as many nodes along y are the fewest that are planned."""

@@ -30,10 +30,12 @@ SWINGING_PART, SWINGING_KELVIN = 0.5, 0.5
 """Part of a change of temperature that is taken where oil flows back, and the change [K] from which
 on: such oil comes from hotter places, and where it is warmer more of it does. On fine grids whole
 changes grow from sweep to sweep, up to 170 K where 92 K are right (traction drives, M = 60 to
-1,000, L = 17 to 21). Time steps, which have few sweeps, take all. So are changes that undo more
-than half of the last one: cold oil reaches a limiting stress, and heats to where it does not, which
-no tangent shows (a ball on glass, M = 295, between 52 and 85 K from sweep to sweep)."""
-UNDONE, UNDONE_KELVIN = 0.5, 5.0  # part of the last change; small ones come to rest by themselves
+1,000, L = 17 to 21). Time steps, which have few sweeps, take all."""
+UNDONE, UNDONE_KELVIN = 0.5, 5.0
+"""Part of the last mean change that the present one undoes, and change [K], from which on that part
+is taken too: cold oil reaches a limiting stress, and heats to where it does not, which no tangent
+shows. A ball on glass (M = 295) swings by 25 to 35 K from sweep to sweep without. From 0.5 K on it
+rests as well, but a bearing (M = 1302, L = 16) takes 21 cycles in place of 5."""
 
 
 @helper

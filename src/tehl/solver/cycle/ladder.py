@@ -178,8 +178,8 @@ whose first strategy fails take 0.75 of the CPU time by this and by going on fro
 30 with asperities and heat 0.76."""
 STEEPEST_SPEED = 20.0
 """Moes speed L above which films that are heated or thin have a wedge of second order after two
-strategies: behind the steepest spikes it converges in three cycles per grid where others of third
-order take 20 or diverge. Nine contacts (L = 26 to 42) take 0.63 of the work, two of them 0.3."""
+strategies. Eight contacts (L = 21 to 41) take 0.64 of the work, one of them (L = 33) fails without,
+and one (L = 21) takes four times as much."""
 UNDAMPED = Strategy(relaxation=STEEP, gives_up=True)
 """Tried soon where the oil is scarce: at the edge of the film damped heat and thinning follow it
 too slowly. It takes 0.8 of the CPU time of 39 contacts of machines. Of nine with L > `STEEP_SPEED`

@@ -202,9 +202,9 @@ def _by_grids(
 def _thinner_outside(scaled: ScaledProblem, level: Level) -> float:
     """Return the relative error of the film by oil that shear thins outside of the domain [-].
 
-    The pressure on the edges is that of Newtonian oil. It is less by the part of its viscosity that
-    the oil loses at the inlet edge, and all of it by `domain_error`. With a limiting stress in
-    proportion to the pressure, six lines (M = 4 to 20, L = 8 to 18) change by 0.1 to 0.9 of that.
+    That of `thinner_error`, by the viscosity that the oil has at the inlet edge. With a limiting
+    stress in proportion to the pressure, six lines (M = 4 to 20, L = 8 to 18) change by 0.1 to 0.9
+    of that.
     """
     if scaled.problem.lubricant.shear.is_newtonian:
         return 0.0

@@ -49,9 +49,9 @@ misses 1 %."""
 BETWEEN, MOST_OTHERS = 1.5, 3
 """Most intervals along x of another grid over those of the last, as half the mesh width costs four
 times as much; and how many other grids are tried."""
-DOMAIN_LEAVES = 2.0
-"""Error of the central film over that of the domain, where this exceeds the error to reach, from
-which a finer grid follows all the same."""
+UNREFINED = 2.0
+"""Error of the central film over that by the domain, or by the flooded film, up to which no finer
+grid follows where these alone exceed the error to reach: the mesh leaves no more than they do."""
 PART_OF_FURTHER = 0.25
 """Part of an iteration error that five further cycles leave where films of scarce oil converge by
 0.75 per cycle, as hot ones do."""
@@ -355,11 +355,11 @@ class Goal:
         needed = self._needed((nx, ny))
         available, supply = memory_limit(self.options), supply_error(self.scaled)
         self.obstacle = self.advice = ""
-        least = math.inf if errors is None else errors.central / DOMAIN_LEAVES
+        least = math.inf if errors is None else errors.central / UNREFINED
         if errors is not None and errors.domain > max(self.target, least):
             cause, self.advice = self._beyond(level.grid.domain, errors.domain)
             self.obstacle = f"{percentage(errors.domain)} are due to {cause}"
-        elif errors is not None and supply > self.target and errors.central < 2.0 * supply:
+        elif errors is not None and supply > self.target and errors.central < UNREFINED * supply:
             self.obstacle = (
                 f"{percentage(supply)} are due to the flooded film, of which supply.ratio is a part"
             )
