@@ -8,7 +8,7 @@ from tehl.api.results import load
 from tehl.api.solvers import solve
 from tehl.base.errors import InputError
 from tehl.contact.options import Options
-from tehl.contact.summits import shear_flow
+from tehl.contact.summits import mean_gap, shear_flow
 from tehl.io.store import save
 from tehl.patch import contact
 from tehl.patch.contact import pressed
@@ -94,13 +94,17 @@ def test_closed_pools_move_with_the_rough_surface():
     assert flow_through(pools, (1.0, 1.0)).carried == pytest.approx(pools.mean(), rel=0.01)
 
 
-def test_flow_factors_are_those_of_patir_and_cheng_but_for_their_scatter():
-    nodes, found = 96, []
+def gaussian_heights(seed: int, nodes: int = 96) -> np.ndarray:
+    """Random heights of unit deviation, smooth over some nodes."""
     q = np.hypot(nodes * np.fft.fftfreq(nodes)[:, None], nodes * np.fft.rfftfreq(nodes))
-    for seed in range(4):  # Gaussian heights, rigid, cut off where they touch
-        phase = np.exp(2j * np.pi * np.random.default_rng(seed).random(q.shape))
-        z = np.fft.irfft2(np.exp(-((q / 8.0) ** 2)) * phase, s=(nodes, nodes))
-        z = (z - z.mean()) / z.std()
+    phase = np.exp(2j * np.pi * np.random.default_rng(seed).random(q.shape))
+    z = np.fft.irfft2(np.exp(-((q / 8.0) ** 2)) * phase, s=(nodes, nodes))
+    return (z - z.mean()) / z.std()
+
+
+def test_flow_factors_are_those_of_patir_and_cheng_but_for_their_scatter():
+    found = []
+    for z in map(gaussian_heights, range(4)):  # rigid, cut off where they touch
         gaps = (2.0, 3.0, 6.0)
         flows = [flow_through(np.maximum(h + z, 0.0), (1, 1)) for h in gaps]
         factors = [0.5 * (f.along + f.across) / h**3 for f, h in zip(flows, gaps, strict=True)]
@@ -108,6 +112,18 @@ def test_flow_factors_are_those_of_patir_and_cheng_but_for_their_scatter():
     factors, carried = np.mean(found, axis=0).reshape(2, 3)
     assert factors == pytest.approx(1.0 - 0.9 * np.exp(-0.56 * np.array(gaps)), abs=0.08)
     assert carried == pytest.approx(shear_flow(np.array(gaps)), rel=0.15)
+
+
+def test_gaussian_valleys_take_their_oil_along_where_surfaces_nearly_touch():
+    gaps = np.array([-0.5, 0.0, 0.25, 0.5])
+    found = [
+        [
+            flow_through(gap, (1, 1)).carried / gap.mean()
+            for gap in np.maximum(gaps[:, None, None] + z, 0.0)
+        ]
+        for z in map(gaussian_heights, range(4))
+    ]
+    assert np.mean(found, axis=0) == pytest.approx(shear_flow(gaps) / mean_gap(gaps), abs=0.06)
 
 
 # ---- curves

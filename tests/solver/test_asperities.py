@@ -472,6 +472,26 @@ def test_the_rougher_surface_carries_more_if_it_is_faster():
     assert films[2] > 1.05 * films[0]
 
 
+@pytest.mark.parametrize("part", [-1.0, -0.7, 0.7, 1.0])
+def test_closer_surfaces_hold_less_oil_however_they_slide(part):
+    """Else a film has two separations, and cycles go to and fro between them."""
+    gap = np.linspace(-2.0, 6.0, 801)
+    held = mean_gap(gap) + part * shear_flow(gap)
+    assert np.diff(held).min() > 0.0
+    below, above = shear_flow(np.array([0.5 - 1e-9, 0.5]))
+    assert below == pytest.approx(above, rel=1e-6)
+
+
+def test_a_smooth_surface_slides_fast_over_a_rough_one_that_it_nearly_touches():
+    tables = rough(300.0, 5.0, 0.4).model_dump(exclude_none=True)
+    sigma = tables["asperities"].pop("rms")
+    tables["contact"]["slide_roll_ratio"] = 1.6
+    tables["surface_2"]["rms_roughness"] = sigma
+    found = solve(case_from_tables(tables)[0])
+    assert max(found.errors.central, found.errors.minimum) < 0.01
+    assert found.asperities.separation.min() < 0.5 * sigma
+
+
 # ---- time
 
 
