@@ -2,7 +2,7 @@
 
 A deep-groove ball bearing 6206 has 9 balls of 9.525 mm on a pitch circle of 46 mm; grooves with a
 radius of 0.52 of the ball. The ball that carries most takes 5 F/Z of a radial load F (Stribeck). At
-n revolutions per minute of the inner ring both raceways entrain the oil with pi n d_m (1 - g^2) / 4
+n revolutions per minute of the inner ring both raceways entrain the oil with pi n d_m (1 - g^2) / 2
 a minute, g the ball over the pitch diameter.
 
 Each line of the list is one raceway at one load and speed. The films, their bars, lambda and the
@@ -36,7 +36,7 @@ def rows(forces: list[float], speeds: list[float]) -> pd.DataFrame:
     found = []
     for force in forces:
         for speed in speeds:
-            entrainment = math.pi * speed / 60 * PITCH / 4 * (1 - ratio**2)
+            entrainment = math.pi * speed / 60 * PITCH / 2 * (1 - ratio**2)
             for ring, radius in (("inner", PITCH - BALL), ("outer", -PITCH - BALL)):
                 found.append(
                     {

@@ -253,6 +253,11 @@ def test_a_bearing_list_has_its_films():
     table = example("bearing_list").main()
     assert list(table["status"]) == ["converged", "converged"]
     inner, outer = table.iloc[0], table.iloc[1]
+    # balls that roll: their centres have half the speed of the inner ring where it touches
+    ball, pitch, turn = 9.525e-3, 46e-3, 2.0 * math.pi * 3000.0 / 60.0
+    cage = 0.5 * turn * (1.0 - ball / pitch)
+    speeds = [(turn - cage) * (pitch - ball) / 2.0, cage * (pitch + ball) / 2.0]
+    assert list(table["u_m [m/s]"]) == pytest.approx(speeds)
     # Hertz: on the narrower inner ring the same load presses more
     assert inner["Hertz pressure [GPa]"] > outer["Hertz pressure [GPa]"] > 0.5
     assert inner["central film [nm]"] < outer["central film [nm]"]
