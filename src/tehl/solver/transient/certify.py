@@ -13,7 +13,7 @@ from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.options import Options, can_be_halved, check_certifiable
 from tehl.contact.problem import ContactProblem
-from tehl.estimate.settled import raises_order, settled
+from tehl.estimate.settled import keeping_order, settled
 from tehl.result.bars import Estimate, shows_second_order
 from tehl.result.solution import ConvergenceError
 from tehl.result.transient import HistoryBars, TransientSolution
@@ -91,9 +91,7 @@ def certify_transient(
     # the finest run is first, because it decides whether the problem is valid
     finest = solve_transient(problem, options, monitor=monitor, until=until)
     if options.points == "auto":
-        # stated nodes would have a wedge of second order
-        order = 3 if raises_order(problem, options) else options.wedge_order
-        options = finest.start.grid_options.model_copy(update={"wedge_order": order})
+        options = keeping_order(problem, options, finest.start.grid_options)
     if not finest.status.converged:
         return finest
     assert problem.transient is not None
