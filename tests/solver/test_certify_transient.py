@@ -254,7 +254,7 @@ def with_spike(run: TransientResult, height: float) -> TransientResult:
     """Add a spike, in Hertz pressures, to the steady film; it is below the largest pressure."""
     start = run.start
     pressure = np.where(start.scaled.x > 0.5, 0.0, start.scaled.pressure)
-    pressure[16, start.scaled.x > 0.8] = height
+    pressure[:, start.scaled.x > 0.5] = height
     unit = np.full_like(run.history.time, start.scales.hertz_pressure)
     return replace(
         run,

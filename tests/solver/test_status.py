@@ -11,6 +11,7 @@ from tehl.api.solvers import solve
 from tehl.contact.options import Domain, Options
 from tehl.estimate.domain import domain_error, far_field_error, recommended_domain
 from tehl.estimate.scaling import groups
+from tehl.solver.judging.measures import spike_of
 from tehl.solver.judging.richardson import (
     estimate,
     first_order_bar,
@@ -87,6 +88,17 @@ def test_a_growing_spike_widens_the_bar_of_the_largest_pressure():
     assert slowing == pytest.approx(1.0)
     assert steady == pytest.approx(1.5)
     assert with_growing_spike(flat, steady).uncertainty > 0.4
+
+
+def test_a_spike_whose_cusp_falls_between_two_nodes_is_narrow():
+    """It was resolved by chance: no higher than on the coarser grid, it grows by half."""
+    place = np.arange(-20.0, 20.0)
+    cusp, smooth = np.exp(np.where(place > 0, -2.0, 0.2) * place), np.exp(-0.05 * place**2)
+    for shape, is_narrow in ((cusp, True), (smooth, False)):
+        found = spike_of(np.full((1, 40), 0.6) + 0.4 * shape, np.full((1, 40), 0.6))
+        assert found["excess"] == pytest.approx(0.4)
+        assert found["narrow"] == pytest.approx(0.4 * is_narrow)
+    assert spike_reach(1.0, [0.41, 0.4], 0.4) == pytest.approx(1.4)
 
 
 def test_a_failure_can_be_pickled():

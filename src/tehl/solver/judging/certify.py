@@ -14,7 +14,7 @@ from tehl.result import registry
 from tehl.result.bars import Estimate
 from tehl.result.solution import NO_COST, ConvergenceError, Cost, Hint, Solution, Status
 from tehl.solver.cost import end_of_time
-from tehl.solver.judging.measures import SPIKE_FROM, highest_excess
+from tehl.solver.judging.measures import SPIKE_FROM, spike_of
 from tehl.solver.judging.richardson import (
     LESS_REGULAR,
     RESIDUE,
@@ -338,5 +338,6 @@ def reach_of_spike(runs: Sequence[Solution]) -> float:
     for run in runs:
         x, y = run.scaled.x[run.scaled.x > SPIKE_FROM], run.scaled.y[:, None]
         pressure = run.scaled.pressure[:, -x.size :]
-        spikes.append(highest_excess(pressure, run.groups.shape.dry_pressure(x, y)))
-    return spike_reach(spikes[-1][0], [excess for _, excess in spikes])
+        spikes.append(spike_of(pressure, run.groups.shape.dry_pressure(x, y)))
+    last = spikes[-1]
+    return spike_reach(last["spike"], [one["excess"] for one in spikes], last["narrow"])

@@ -39,8 +39,10 @@ SPIKE_FROM = 0.5
 """X downstream of which the pressure spike is searched, in Hertz half-widths."""
 NODES_OF_NARROW = 3
 """Most nodes of a spike at half of its excess, which may then double: two lines (L = 11 and 17, 257
-nodes) whose spikes three grids seemed to resolve have 3, and excesses of 0.29 and 0.58 that grow to
-0.56 and 1.03 on grids eight and sixteen times as fine."""
+nodes) whose spikes seemed resolved have 3; 0.29 and 0.58 grow to 0.56 and 1.03 on finer grids."""
+BEND_OF_NARROW = 0.6
+"""Second difference at the top over the excess, that of a smooth spike on as few nodes: above it a
+cusp falls between nodes. That of a line (M = 9, L = 15, 513 nodes) has 1.4; 0.46 grows to 0.63."""
 
 
 def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
@@ -327,17 +329,25 @@ def solid_friction(level: Level, scaled: ScaledProblem) -> float:
 
 
 def _spike(level: Level) -> dict[str, float]:
-    """Return the pressure where it exceeds that of Hertz most, downstream, and its excess [-].
+    """Return what `spike_of` does of the film of a level, downstream."""
+    behind = np.s_[:, level.grid.x > SPIKE_FROM]
+    return spike_of(level.film.p[behind], dry_pressure(level.grid, level.equations.groups)[behind])
 
-    Also by how much the spike may grow with the mesh: as much again where few nodes have half of
-    its excess, else zero.
+
+def spike_of(pressure: Array, dry: Array) -> dict[str, float]:
+    """Return the ``spike``, its ``excess`` over the dry pressure, and by how much it may rise [-].
+
+    By as much again, ``narrow``, where few nodes have half of it, or where it is a cusp; else zero.
+
+    Parameters
+    ----------
+    pressure, dry : (ny, nx) array
+        Of nodes downstream.
     """
-    behind = level.grid.x > SPIKE_FROM
-    pressure = level.film.p[:, behind]
-    dry = dry_pressure(level.grid, level.equations.groups)[:, behind]
-    spike, excess = highest_excess(pressure, dry)
-    narrow = excess * (_nodes_across(pressure - dry) <= NODES_OF_NARROW)
-    return {"spike": spike, "excess": excess, "narrow": narrow}
+    above = pressure - dry
+    spike, excess = float(pressure.flat[above.argmax()]), float(above.max())
+    is_narrow = _nodes_across(above) <= NODES_OF_NARROW or _bend(above) > BEND_OF_NARROW * excess
+    return {"spike": spike, "excess": excess, "narrow": excess * is_narrow}
 
 
 def _bend(pressure: Array) -> float:
@@ -354,12 +364,6 @@ def _nodes_across(above: Array) -> int:
     lower = np.flatnonzero(~np.pad(above[row] >= 0.5 * above[row, highest], 1)) - 1
     after = int(np.searchsorted(lower, highest))
     return int(lower[after] - lower[after - 1] - 1)
-
-
-def highest_excess(pressure: Array, dry: Array) -> tuple[float, float]:
-    """Return the pressure where it exceeds the dry one most, and its excess [-]."""
-    excess = pressure - dry
-    return float(pressure.flat[excess.argmax()]), float(excess.max())
 
 
 def mid_film_stress(

@@ -84,7 +84,7 @@ def slows(values: list[float], part: float = SLOWING) -> bool:
     return len(values) == 3 and values[2] - values[1] < part * (values[1] - values[0])
 
 
-def spike_reach(spike: float, excess: list[float]) -> float:
+def spike_reach(spike: float, excess: list[float], narrow: float = 0.0) -> float:
     """Return the pressure that the spike may have on finer grids [-].
 
     Its excess over Hertz may grow by as much on each finer grid (M = 75, L = 11: 0.17, 0.25, 0.34,
@@ -96,9 +96,11 @@ def spike_reach(spike: float, excess: list[float]) -> float:
         Its pressure on the finest grid [-].
     excess : list of float
         Its excess over Hertz on two or three grids halved each time [-].
+    narrow : float
+        By how much more it may rise because the mesh is too coarse for it [-].
     """
     further = SPIKE_GROWTH if slows(excess) else UNRESOLVED_GROWTH
-    return spike + further * max(excess[-1] - excess[-2], 0.0)
+    return spike + max(further * (excess[-1] - excess[-2]), narrow)
 
 
 def with_growing_spike(highest: Estimate, reach: float) -> Estimate:

@@ -167,7 +167,7 @@ def _spike_reach(traces: list[GridTrace], errors: Mapping[str, float]) -> tuple[
         return True, 0.0
     change = largest[-1] - largest[-2]
     spike, grown = known[-1]["spike"], known[-1].get("narrow", 0.0)
-    reach = max(spike_reach(spike, excess), spike + grown) / largest[-1] - 1.0
+    reach = spike_reach(spike, excess, grown) / largest[-1] - 1.0
     grows = change > LARGE_GROWTH * largest[-1] and not slows(largest, SECOND_ORDER)
     return not grows and reach <= errors.get("pressure_max", 0.0), reach
 
