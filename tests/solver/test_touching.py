@@ -191,6 +191,12 @@ def test_the_bar_of_a_share_covers_that_of_a_finer_grid(bump: Result):
     assert fine.share_error < 0.4 * coarse.share_error
 
 
+def test_the_bar_of_a_film_that_touches_covers_the_change_of_its_share(bump: Result):
+    """The film is the boundary film on each grid, and may lift off as less touches."""
+    assert bump.film_scaled.central == pytest.approx(0.02, rel=1e-6)
+    assert bump.errors.central >= 0.999 * bump.errors.bars["contact_share"] > 1e-4
+
+
 def test_a_long_patch_is_resolved_if_its_width_is():
     film, round_one = np.full((3, 60, 60), 2.0), np.hypot.outer(*2 * [np.arange(60) - 30.0]) < 6.0
     film[0, 20:24, 10:50] = 1.0
