@@ -35,6 +35,7 @@ def test_a_grid_that_does_not_fit_is_rejected_with_one_that_does(monkeypatch):
     with pytest.raises(InputError, match=r"points = 16385 x 16385: .* 59 GB .* take 2945 or fewer"):
         check_memory(Options(points=16385))
     check_memory(Options(points=2945))
+    check_memory(Options(error=1e-4))  # the solve fits its grid
 
 
 def test_no_grid_is_proposed_if_none_fits(monkeypatch):

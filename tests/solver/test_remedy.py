@@ -336,7 +336,7 @@ def test_the_best_film_from_other_nodes_on_is_kept(errors, number):
     ]
     left = iter(films)
 
-    def solved(_: tuple[int, int], __: float):
+    def solved(_: tuple[int, int]):
         try:
             return next(left)
         except StopIteration:
@@ -353,7 +353,7 @@ def test_other_nodes_keep_the_lines_of_a_roller_and_need_a_part_of_the_time(seco
     failed = failed.but(cost=replace(failed.cost, wall_seconds=20.0), status=status)
     tried: list[tuple[int, int]] = []
 
-    def fails(nodes: tuple[int, int], _: float):
+    def fails(nodes: tuple[int, int]):
         tried.append(nodes)
         raise InputError("no memory")
 

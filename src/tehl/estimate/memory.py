@@ -75,7 +75,7 @@ def check_memory(options: Options, problem: ContactProblem | None = None) -> Non
     Parameters
     ----------
     options : Options
-        With the nodes of the finest grid stated.
+        Nodes that it does not state are fitted into the memory.
     problem : ContactProblem or None
         As of :func:`needed_memory`.
 
@@ -84,6 +84,8 @@ def check_memory(options: Options, problem: ContactProblem | None = None) -> Non
     InputError
         If the need exceeds the available memory; the message names a grid that fits.
     """
+    if options.points == "auto":
+        return
     needed = needed_memory(options, problem)
     # any machine that runs Python has 16 MB
     available = available_memory() if needed > 16e6 else None

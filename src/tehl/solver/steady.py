@@ -102,14 +102,14 @@ def _after_failure(
     def attempt(problem: ContactProblem, options: Options) -> Solution:
         return try_strategies(problem, options, monitor=monitor, rough=True)[1]
 
-    def on_nodes(nodes: tuple[int, int], seconds: float) -> Solution:
+    def on_nodes(nodes: tuple[int, int]) -> Solution:
         return try_strategies(
             failed.problem,
             failed.options,
             monitor=monitor,
             rough=True,
             flooded=_known_flooded(failed),
-            until=working_time() + seconds,
+            until=end,
             nodes=nodes,
         )[1]
 

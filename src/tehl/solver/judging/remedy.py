@@ -22,7 +22,7 @@ ERRORS = (0.5, 0.2, 0.05)
 TRIAL_TIME_FACTOR = 3.0
 """Time for the trials over that of the failed solve, up to ``numerics.max_time``."""
 Solve = Callable[[ContactProblem, Options], Solution]
-SolveOn = Callable[[tuple[int, int], float], Solution]
+SolveOn = Callable[[tuple[int, int]], Solution]
 Reached = tuple[tuple[int, int], float]
 """Nodes (nx, ny) and relative error of a film that converged."""
 OTHER_GRIDS, LEAST_TRIAL = 2, 0.2
@@ -50,7 +50,7 @@ def solved_on_other_nodes(
         As in `working_hint`.
     solve : callable
         Returns the result of the contact, converged or not, that begins with nodes (nx, ny) and
-        may go on to finer grids within some seconds.
+        may go on to finer grids until the time is over.
     """
     if failed.status.kind not in ("diverged", "stalled") or not failed.history:
         return None
@@ -61,13 +61,12 @@ def solved_on_other_nodes(
     part = part if keeps or part > 1.0 else 1.0
     best, least = None, math.inf
     for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHER_GRIDS]:
-        left = min(end - working_time(), TRIAL_TIME_FACTOR * failed.cost.wall_seconds)
-        if left < LEAST_TRIAL * failed.cost.wall_seconds:
+        if end - working_time() < LEAST_TRIAL * failed.cost.wall_seconds:
             break
         points = (more, 1 if failed.problem.contact.is_line else round(part * (more - 1)) + 1)
         monitor.message(f"trying {grid_size(points)}")
         with suppress(TehlError):
-            found = solve(points, left)
+            found = solve(points)
             if meets(found, failed.options.target):
                 return found
             error = math.inf if found.errors is None else found.errors.film()
