@@ -17,7 +17,7 @@ from tehl.plots.animation import animate
 from tehl.plots.convergence import residual_history
 from tehl.plots.dynamics import dynamics_curves
 from tehl.plots.fit import oil_fit
-from tehl.plots.frame import write_png
+from tehl.plots.frame import lay_out, write_png
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
 from tehl.plots.maps import (
@@ -268,4 +268,5 @@ def save_picture(picture: Figure, path: Path, *, dpi: int) -> None:
         if (ending := path.suffix[1:].lower()) == "png":
             write_png(picture, temporary, dpi)
         else:
+            lay_out(picture)
             picture.savefig(temporary, dpi=dpi, format=ending)
