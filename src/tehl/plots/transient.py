@@ -30,8 +30,8 @@ def time_unit(run: TransientSolution) -> tuple[float, str]:
 def history(run: TransientSolution, *, title: bool | None = True) -> Figure:
     """Draw film, pressure, traction, and rise, load, motion and radius if they change, over time.
 
-    The upper axis is the distance that the mean of both surfaces moves at a constant speed. Bands
-    are the error bars of a certified run.
+    The upper axis is the distance that the mean of both surfaces moves, where its speed is
+    constant. Bands are the error bars of a certified run.
 
     Parameters
     ----------
@@ -81,7 +81,8 @@ def history(run: TransientSolution, *, title: bool | None = True) -> Figure:
         axes.grid(lw=0.3)
         axes.margins(x=0)
     panels[-1].set_xlabel(f"time [{unit}]")
-    _add_distance_axis(panels[0], run, factor)
+    if np.ptp(numbers.speed) == 0.0:
+        _add_distance_axis(panels[0], run, factor)
     picture.align_ylabels(panels)
     return picture
 

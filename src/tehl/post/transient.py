@@ -108,6 +108,11 @@ def distances(run: TransientSolution) -> Array:
     return np.outer(speeds, run.history.time)
 
 
+def way(run: TransientSolution) -> float:
+    """Return the way of the mean of both surfaces along x, there and back [Hertz half-widths]."""
+    return float(np.abs(np.diff(distances(run)[0])).sum() / run.start.scales.half_width_x)
+
+
 def _schedule(run: TransientSolution) -> Schedule:
     """Return what was known of the steps of a run."""
     start, units = run.start, run.start.scales

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tehl.post.following import Following
+from tehl.post.transient import way
 from tehl.post.transient_numbers import (
     friction,
     late_extremes,
@@ -70,5 +71,6 @@ def following(result: Solution | TransientSolution) -> Following | dict[str, Any
             "late_extremes": late_extremes(result),
             "longer_duration": longer_duration(result),
             "why_share_unknown": why_share_unknown(result),
+            "way": way(result),
         }
     return found
