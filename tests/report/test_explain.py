@@ -90,6 +90,7 @@ ODD = [
     ("contact.entrainment_speed", "1500 m/s", "entrainment speed"),
     ("contact.slide_roll_ratio", 3, "opposite"),
     ("contact.slide_roll_ratio", 0.5, "Newtonian"),
+    ("contact.slide_roll_ratio", 0.01, "oils thin from shear stresses of some 5 MPa on"),
     ("lubricant.viscosity.eta_0", "40 Pa s", "eta_0"),
     ("lubricant.viscosity.alpha", "220 1/GPa", "alpha"),
     ("lubricant.density.rho_0", 0.89, "rho_0"),

@@ -58,7 +58,7 @@ def _motion_of(first: tuple[float, float], second: tuple[float, float]) -> dict[
     along, across = (one - other for one, other in zip(first, second, strict=True))
     mean, sliding = math.hypot(x, y), math.hypot(along, across)
     if not mean > PARALLEL_SINE * sliding:
-        raise ValueError("states opposite velocity_1 and velocity_2: their mean drags no oil in")
+        raise ValueError("states velocity_1 and velocity_2 whose mean is zero: it drags no oil in")
     with_mean, beside = x * along + y * across, x * across - y * along
     is_along = abs(beside) <= PARALLEL_SINE * mean * sliding
     return {

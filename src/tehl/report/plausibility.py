@@ -31,9 +31,9 @@ from tehl.report.roughness import CONVERGES, RESOLVES, Asperities
 SLIDING, WARM = 0.02, 5.0
 """Slide-roll ratio from which on surfaces count as sliding, and temperature rise from which on an
 isothermal film is not plausible [K]."""
-UNPHYSICAL, UNPHYSICAL_STRESS = 0.8e9, 1.0
-"""Hertz pressure from which on a sliding Newtonian film is not plausible [Pa], and stress over the
-pressure, before heat, from which on one that thins is not."""
+UNPHYSICAL, THINS, UNPHYSICAL_STRESS = 0.8e9, 5e6, 1.0
+"""Hertz pressure, and shear stress at the mean one, from which on a sliding Newtonian film is not
+plausible [Pa], and stress over the pressure, before heat, from which on one that thins is not."""
 THICK_FILM = 0.01
 """Film over the reduced radius from which on the gap of a film is steep: its slope is 0.14 where it
 is twice as wide as at the centre."""
@@ -282,11 +282,12 @@ def _about_sliding(scaled: ScaledProblem, heat: ExpectedHeat | None) -> Iterator
         )
     high = slip > SLIDING and pressure >= UNPHYSICAL * (1.0 - LIMIT_ROUNDING)
     high = high or (heat is not None and heat.traction > LARGEST_CREDIBLE)
+    high = high or inlet_stress(scaled) * problem.hertz.mean_pressure > THINS
     if high and shear.is_newtonian:
         yield (
-            f"a Newtonian film slides at {pressure / 1e9:.2g} GPa: traction coefficients above 0.1 "
-            "are not physical; state an Eyring or limiting shear stress, "
-            'such as shear = { law = "eyring", stress = "5 MPa" }'
+            f"a Newtonian film slides at {pressure / 1e9:.2g} GPa: oils thin from shear stresses "
+            "of some 5 MPa on, and traction coefficients above 0.1 are not physical; state an "
+            'Eyring or limiting shear stress, such as shear = { law = "eyring", stress = "5 MPa" }'
         )
     elif problem.is_coupled and (stress := inlet_stress(scaled)) > UNPHYSICAL_STRESS:
         yield (

@@ -304,8 +304,8 @@ def _load_on_an_edge(scaled: ScaledProblem) -> Iterator[LikelyCause]:
             f"{roller.widest:.2g} times the pressure of a load spread evenly over its length."
         ),
         hint=Hint(
-            "Take less tilt or a flatter crown; state one that touches within some half-widths "
-            "as an ellipse (contact.radius_x and radius_y without a type)."
+            "Take less tilt or tilting moment, or a flatter profile; state a crown that touches "
+            "within some half-widths as an ellipse (contact.radius_x and radius_y without a type)."
         ),
     )
 
