@@ -286,6 +286,13 @@ def pressure_top(result: Solution) -> float:
     return max(float(pressure.max(initial=0.0)), 0.0)
 
 
+def pressure_label(result: Solution, words: str) -> str:
+    """Return ``words`` for an axis of pressure [GPa], and what a scale that ends before omits."""
+    if result.errors is None or result.errors.pressure_has_limit:
+        return words
+    return f"{words}, at the ends to {float(result.pressure.max()) * GIGA:.3g}"
+
+
 def stretched(result: Solution) -> float:
     """Return the scale of y over that of x on maps: one unless the window is slender."""
     true = slenderness(result)

@@ -22,6 +22,7 @@ from tehl.plots.frame import (
     WINDOW,
     figure,
     figure_of,
+    pressure_label,
     pressure_top,
     single,
     span_part,
@@ -87,7 +88,7 @@ def _pressure_and_film(axes: Axes, result: Solution, profile: Profile, line: Lin
     dry: dict[str, Any] = {"color": "0.45", "lw": 1.0, "ls": "--", "label": "dry Hertz"}
     axes.plot(place, profile.hertz_pressure * GIGA, **dry)
     axes.plot(place, profile.pressure * GIGA, color=PRESSURE, lw=1.4, label="pressure")
-    axes.set_ylabel("pressure p [GPa]", color=PRESSURE)
+    axes.set_ylabel(pressure_label(result, "pressure p [GPa]"), color=PRESSURE)
     axes.set_ylim(bottom=0.0)
     if result.errors is not None and not result.errors.pressure_has_limit:
         axes.set_ylim(top=1.05 * pressure_top(result) * GIGA)
@@ -233,7 +234,7 @@ def pressure_surface(result: Solution, *, title: bool | None = True) -> Figure:
     axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], zlim=(0.0, 1.02 * top))
     axes.set_xlabel("x [µm]", labelpad=3)
     axes.set_ylabel("y [µm]", labelpad=5)
-    axes.set_zlabel("p [GPa]")
+    axes.set_zlabel(pressure_label(result, "p [GPa]"))
     wide = float(np.clip(np.ptp(y) / np.ptp(x), 0.4, 2.5))
     axes.set_box_aspect((1.0, wide, 0.62 * max(1.0, wide)), zoom=1.15 if wide < 2.0 else 0.98)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
