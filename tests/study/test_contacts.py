@@ -327,6 +327,16 @@ def test_friction_and_loss_contain_those_of_asperities():
     assert "no friction, as this oil shears at more stress" in _obtained(row)
 
 
+def test_a_row_says_which_of_its_empty_cells_the_template_states():
+    headings = ["name", "load [N]", "p_h [GPa]", "u_m [m/s]"]
+    rows = ["a", 50, None, 1.0], ["b", None, 1.2, 1.0], ["c", None, None, None]
+    lines = list(enumerate([headings, *map(list, rows)], 1))
+    found = contacts_of(lines, *template_tables(None))
+    assert [row.taken for row in found.rows] == [(), (), ("load [N]", "u_m [m/s]")]
+    solved = Row(key="a", status="converged", summary={})
+    assert _obtained(solved, found.rows[2].taken).endswith("; of the template: load [N], u_m [m/s]")
+
+
 def test_answers_are_taken_in_parts(tmp_path, template, monkeypatch):
     path = tmp_path / "list.csv"
     path.write_text("load [N]\n" + "".join(f"{20 + n}\n" for n in range(7)))

@@ -34,18 +34,19 @@ def run(  # noqa: PLR0913 (the arguments of the command)
     check_output(output)
     check_writable(output, sources=(source, *(() if template is None else (template,))))
     found = read_contacts(source, template)
-    if not found.cases:
-        raise InputError(f"{source}: no row can be solved; {found.wrong[0].message}")
     if template is None and not quiet:
         show(
             f"what the rows do not state is that of tehl new {TEMPLATE}; --template takes another "
             "case",
             err=True,
         )
-    for row in found.wrong[:MOST_NAMED_CASES]:
+    first = 0 if found.cases else 1  # that is the error
+    for row in found.wrong[first:MOST_NAMED_CASES]:
         show(f"tehl: {row.message}", err=True)
     if len(found.wrong) > MOST_NAMED_CASES:
         show(f"tehl: and {len(found.wrong) - MOST_NAMED_CASES} more wrong rows", err=True)
+    if not found.cases:
+        raise InputError(f"{source}: no row can be solved; {found.wrong[0].message}")
     folder = output.with_name(f"{output.name}.contacts")
     with locked(folder), closing(Store(folder)) as store:
         try:

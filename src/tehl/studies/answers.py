@@ -91,7 +91,7 @@ def _line(row: Listed, columns: Sequence[Column], found: Row | None) -> dict[str
         line |= {name: value for name, value in values.items() if _key_of(name) not in stated}
         line["regime"] = found.summary.get("roughness.lubrication")
     line["status"] = "wrong row" if row.case is None else found.status if found else "open"
-    line["obtained"] = row.message if row.case is None else _obtained(found)
+    line["obtained"] = row.message if row.case is None else _obtained(found, row.taken)
     return line
 
 
@@ -104,8 +104,11 @@ def _key_of(name: str) -> str | None:
 _EYRING = "state lubricant.shear.law = eyring and lubricant.shear.stress = 5 MPa"
 
 
-def _obtained(row: Row | None) -> str:
-    """Return how a row was obtained, or why not, in a sentence."""
+def _obtained(row: Row | None, taken: Sequence[str] = ()) -> str:
+    """Return how a row was obtained, or why not, in a sentence.
+
+    ``taken`` are the columns that the template states for it.
+    """
     if row is None:
         return "not solved yet"
     if not row.converged:
@@ -117,6 +120,8 @@ def _obtained(row: Row | None) -> str:
     text = f"solved on {grid_size((nx, ny))}"
     if worst is not None:
         text = f"{text}, film to {percentage(worst)}"
+    if taken:
+        text = f"{text}; of the template: {', '.join(taken)}"
     if row.summary.get("traction.credible") is False:
         text = f"{text}; no friction, as this oil shears at more stress than oils bear: {_EYRING}"
     return f"{text}. {row.message} {row.hint}" if row.hint else text  # converged, but uncertain

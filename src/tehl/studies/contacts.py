@@ -66,6 +66,8 @@ class Listed:
     cells: tuple[Any, ...]
     case: Case | None
     message: str = ""
+    taken: tuple[str, ...] = ()
+    """Columns whose cell is empty, so that the template states it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,7 +229,8 @@ def _listed(
 ) -> Listed:
     """Return a row with its case, or with what is wrong in it."""
     try:
-        problem, options = case_from_tables(tables_of(base, stated_in(columns, cells)), folder)
+        stated = stated_in(columns, cells)
+        problem, options = case_from_tables(tables_of(base, stated), folder)
         if problem.transient is not None or problem.has_passes:
             raise InputError("a list of contacts has steady ones: leave out transient and passes")
     except InputError as error:
@@ -241,7 +244,18 @@ def _listed(
     if "max_time" not in options.model_fields_set:  # starts no finer grid after a minute
         options = options.model_copy(update={"max_time": 60.0})
     case = Case(name=f"row {number}", problem=problem, options=options, labels=labels)
-    return Listed(number, tuple(cells), case)
+    known = {*stated, *_replaced(stated), TITLE}
+    taken = (one.heading for one in columns if one.key not in known and _states(base, one.key))
+    return Listed(number, tuple(cells), case, taken=tuple(taken))
+
+
+def _states(tables: Any, key: str | None) -> bool:
+    """Return whether tables have a value at a key path."""
+    for name in (key or "").split("."):
+        if not isinstance(tables, Mapping) or name not in tables:
+            return False
+        tables = tables[name]
+    return True
 
 
 def tables_of(base: dict[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
