@@ -155,17 +155,27 @@ def test_steep_fronts_are_tried_without_combined_cycles_first(
         assert third[place] is UNCOMBINED
 
 
-def test_the_steepest_fronts_are_tried_with_a_wedge_of_second_order_after_two_strategies(
-    hybrid_bearing: ContactProblem,
+@pytest.mark.parametrize("heat", [None, {}])
+@pytest.mark.parametrize("supply", [None, {"ratio": 0.5}])
+def test_the_steepest_fronts_are_tried_with_a_wedge_of_second_order_soon(
+    hybrid_bearing: ContactProblem, heat: dict | None, supply: dict | None
 ) -> None:
+    """After two strategies where oil heats, else after that one which damps as well."""
     tables, third = hybrid_bearing.model_dump(exclude_none=True), []
+    tables |= {"thermal": heat, "supply": supply}
+    if heat is not None:
+        tables["lubricant"] |= {"conductivity": 0.14, "heat_capacity": 2000.0}
+        tables["lubricant"]["viscosity"] |= {"gamma": 0.04, "reference_temperature": 313.15}
+        tables["lubricant"]["density"]["beta"] = 7e-4
     for speed in (14.0, 25.0):
         tables["contact"] |= {"entrainment_speed": None, "moes_speed": speed}
         scaled = ScaledProblem.of(ContactProblem.model_validate(tables))
         rungs = ladder(scaled, OPTIONS, rough=False)
         third.append(next(k for k, one in enumerate(rungs) if one.wedge_order == 2))
-        assert (scaled.groups.L > STEEPEST_SPEED) == (third[-1] == THIRD_ORDER_STRATEGIES)
-    assert third[0] > third[1]
+        assert (scaled.groups.L > STEEPEST_SPEED) == (speed > 20.0)
+    assert third[0] >= third[1]
+    assert third[1] == (THIRD_ORDER_STRATEGIES if heat is not None else 3 + (supply is not None))
+    assert heat is not None or rungs[third[1] - 1].damping < 1.0
 
 
 @pytest.mark.parametrize("thins", [False, True])

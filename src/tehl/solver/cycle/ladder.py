@@ -177,9 +177,10 @@ STEEP_SPEED = 13.0
 whose first strategy fails take 0.75 of the CPU time by this and by going on from solved grids, and
 30 with asperities and heat 0.76."""
 STEEPEST_SPEED = 20.0
-"""Moes speed L above which films that are heated or thin have a wedge of second order after two
-strategies. Eight contacts (L = 21 to 41) take 0.64 of the work, one of them (L = 33) fails without,
-and one (L = 21) takes four times as much."""
+"""Moes speed L above which films that are heated have a wedge of second order after two strategies:
+eight contacts (L = 21 to 41) take 0.64 of the work, and one of them (L = 33) fails without. Those
+that only thin have it after a damped one of third order: 55 of them (L = 20 to 47) take 0.46 of the
+work, and one more converges (a starved inner ring, M = 1,470); 34 heated ones take 1.1 by it."""
 UNDAMPED = Strategy(relaxation=STEEP, gives_up=True)
 """Tried soon where the oil is scarce: at the edge of the film damped heat and thinning follow it
 too slowly. It takes 0.8 of the CPU time of 39 contacts of machines. Of nine with L > `STEEP_SPEED`
@@ -285,7 +286,8 @@ def _with_third_order(scaled: ScaledProblem, rungs: tuple[Strategy, ...]) -> tup
     if scaled.groups.L > STEEP_SPEED:
         third = (quick, *scarce, *steep, *later, *others)
         if problem.is_coupled and scaled.groups.L > STEEPEST_SPEED:
-            third = third[:THIRD_ORDER_STRATEGIES]
+            more = 1 + len(scarce) if problem.thermal is None else 0
+            third = third[: THIRD_ORDER_STRATEGIES + more]
     else:
         third = (quick, *scarce, *others, *steep, *later)
     return (*thin, *first, *third, *second)
