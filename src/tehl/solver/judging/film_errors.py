@@ -228,7 +228,9 @@ def _thinner_outside(scaled: ScaledProblem, level: Level) -> float:
         return 0.0
     groups, film = scaled.entering, level.film
     newtonian = np.exp(-groups.alpha_bar * film.p[:, 0]) / groups.lambda_bar
-    kept = float((newtonian * film.h[:, 0] ** 3 / film.eps_x[:, 0]).min())
+    flows = film.eps_x[:, 0] > 0.0  # a film that diverges may not
+    thin = (newtonian * film.h[:, 0] ** 3)[flows] / film.eps_x[flows, 0]
+    kept = float(thin.min(initial=1.0))
     return max(1.0 - kept, 0.0) * domain_error(groups, level.grid.domain)
 
 
