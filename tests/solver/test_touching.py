@@ -18,7 +18,7 @@ from tehl.io.store import save
 from tehl.io.summary import summary
 from tehl.kernels import reynolds
 from tehl.operators.deformation import FftDeformation, Flattening
-from tehl.plots import contact_map, pictures_of
+from tehl.plots import centre_lines, contact_map, pictures_of
 from tehl.post.boundary_contact import largest_patches
 from tehl.report.page import report_text
 from tehl.result.transient import Frames
@@ -245,6 +245,10 @@ def test_a_result_with_contact_is_stored_shown_and_drawn(bump: Result, tmp_path)
     assert all(block[key] is None for key in ("share", "friction", "power_boundary_w", "patches"))
     assert "contact" in pictures_of(bump)
     assert contact_map(bump).axes
+    curves = {one.get_label(): one.get_ydata() for one in centre_lines(bump).axes[0].lines}
+    both = both_pressures(bump)[bump.scaled.centre[0]] * bump.scales.hertz_pressure
+    assert curves["with solids"] == pytest.approx(1e-9 * both)
+    assert curves["pressure of the oil"].max() < curves["with solids"].max()
     assert "Contact through the boundary film" in report_text(bump, dpi=30)
     text = as_text(bump)
     assert "share of the load not known" in text

@@ -32,6 +32,7 @@ from tehl.plots.temperature import Line, rises
 from tehl.post.film import Profile, profile_x, profile_y
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import film_histogram, rough_film
+from tehl.post.stress.loads import whole_pressure
 from tehl.result.solution import Solution
 
 _AROUND = (-1.4, 1.4)
@@ -87,7 +88,12 @@ def _pressure_and_film(axes: Axes, result: Solution, profile: Profile, line: Lin
     place, film = profile.coordinate * MICRO, axes.twinx()
     dry: dict[str, Any] = {"color": "0.45", "lw": 1.0, "ls": "--", "label": "dry Hertz"}
     axes.plot(place, profile.hertz_pressure * GIGA, **dry)
-    axes.plot(place, profile.pressure * GIGA, color=PRESSURE, lw=1.4, label="pressure")
+    touches = result.contact is not None or result.asperities is not None
+    if touches:
+        whole: dict[str, Any] = {"color": PRESSURE, "lw": 0.9, "ls": "-.", "label": "with solids"}
+        axes.plot(place, whole_pressure(result)[line] * GIGA, **whole)
+    name = "pressure of the oil" if touches else "pressure"
+    axes.plot(place, profile.pressure * GIGA, color=PRESSURE, lw=1.4, label=name)
     axes.set_ylabel(pressure_label(result, "pressure p [GPa]"), color=PRESSURE)
     axes.set_ylim(bottom=0.0)
     if result.errors is not None and not result.errors.pressure_has_limit:
@@ -155,7 +161,7 @@ def rough_centre_line(
     shown = np.abs(result.scaled.x[inside]) < (FILTERED if smooth is None else 1.0)
     ripple = np.where(shown, micro_film(result, smooth).film[row, inside] * 1e9, np.nan)
     lower.plot(place, ripple, color=FILM, lw=1.2, label="ripple of the film")
-    lower.set(xlabel=ALONG_X, ylabel="deviation from the mean [nm]", xlim=(place[0], place[-1]))
+    lower.set(xlabel=ALONG_X, ylabel="heights and ripple [nm]", xlim=(place[0], place[-1]))
     lower.legend(loc="upper left", bbox_to_anchor=(0.0, -0.22), ncols=2, **PLAIN)
     return picture
 
