@@ -145,7 +145,7 @@ def _changed_share(level: Level, traces: list[GridTrace]) -> float:
     """Return the relative change of the load on solids by the last grid [-].
 
     Where rough surfaces touch the film is the boundary film, and may be thicker where less touches:
-    a film of 20 nm on 161 nodes (M = 160), where the share changes from 0.79 to 0.69, is one of
+    a film of 20 nm on 161 nodes (M = 517), where the share changes from 0.79 to 0.69, is one of
     22.8 nm on 449.
     """
     last, before = traces[-1].measured, traces[-2].measured
