@@ -338,3 +338,17 @@ def test_complex_fields_and_deep_summaries_are_rejected(result, tmp_path):
         file.attrs["summary"] = "[" * 20_000 + "]" * 20_000
     with pytest.raises(FileFormatError, match="truncated or damaged"):
         load_summary(path)
+
+
+def test_a_cut_result_and_a_film_below_zero_are_rejected(result, tmp_path):
+    """Reports and pictures take the middle of the contact, and a film."""
+    path = tmp_path / "cut.nc"
+    for name, change_of, words in (
+        ("X", lambda x: x - x[-1] - 0.1, "the coordinate x leaves out the middle of the contact"),
+        ("H", lambda film: film - 1.0, "film is not positive in a converged result"),
+    ):
+        save(result, path)
+        with h5py.File(path, "a") as file:
+            file[name][...] = change_of(file[name][...])
+        with pytest.raises(FileFormatError, match=words):
+            load(path)

@@ -273,11 +273,21 @@ def _steady(arrays: Arrays, attrs: Attributes) -> Solution:
         **state,
         problem=ContactProblem.model_validate_json(attrs["problem"]),
         options=Options.model_validate_json(attrs["options"]),
-        scaled=Fields(**reader.columns(tables.SCALED)),
+        scaled=_around_contact(Fields(**reader.columns(tables.SCALED)), positive=reader.finite),
         history=_cycles(arrays),
         heat=None if heat is None else FilmHeat(**heat | reader.columns(tables.HEAT)),
         **{name: reader.part(*one) for name, one in _PARTS.items()},
     )
+
+
+def _around_contact(fields: Fields, *, positive: bool) -> Fields:
+    """Return fields; ValueError if they do not surround the contact, or a film is not positive."""
+    for name, axis in (("x", fields.x), ("y", fields.y)):
+        if axis.size > 1 and not axis[0] < 0.0 < axis[-1]:
+            raise ValueError(f"the coordinate {name} leaves out the middle of the contact")
+    if positive and not (fields.film > 0.0).all():
+        raise ValueError("film is not positive in a converged result")
+    return fields
 
 
 def _transient(start: Solution, arrays: Arrays, attrs: Attributes) -> TransientSolution:
