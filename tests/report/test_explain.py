@@ -333,7 +333,7 @@ def test_a_stated_grid_is_shown_with_the_expected_one_and_its_error_in_question(
     case, usual = explained("numerics.points", 65), explained()
     assert case.expected_shape == usual.expected_shape == usual.options.shape
     nodes = case.expected_shape[0]
-    assert f"65 x 65 nodes   {nodes} expected for an error of 1 %" in as_text(case)
+    assert f'65 x 65 nodes   numerics.error = "1 %" would take {nodes}' in as_text(case)
     question = next(text for text in case.questions if "coarse" in text)
     assert "numerics.points = 65: the expected error of the film is about 17 %" in question
     assert 'set numerics.error = "2 %" instead' in question
@@ -400,7 +400,9 @@ def test_sharp_summits_are_not_plausible():
 def test_the_plan_of_a_line_has_one_row():
     case = explain(*case_from_tables(tomllib.loads(template_text("gear-mesh"))))
     assert (case.options.shape, case.expected_shape[0]) == ((1, 257), 1)
-    assert f"257 nodes   {case.expected_shape[1]} expected for an error of 2 %" in as_text(case)
+    assert f'257 nodes   numerics.error = "2 %" would take {case.expected_shape[1]}' in as_text(
+        case
+    )
     assert case.time.seconds < 2e-2 * case.time.steps  # much less than on 257 rows
 
 
