@@ -109,8 +109,7 @@ def stress_planes(result: Solution, *, title: bool | None = True) -> Figure:
     mesh = floor.pcolormesh(x, y, found.floor[row] * GIGA, cmap="viridis", **MAP)
     dress_contact(floor, result)
     floor.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), title=f"{deep:.4g} µm deep")
-    if slender:
-        floor.xaxis.set_major_locator(MaxNLocator(2))
+    floor.xaxis.set_major_locator(MaxNLocator(2 if slender else 4))
     colour_bar(floor, mesh, "largest shear stress [GPa]")
     return picture
 

@@ -195,7 +195,7 @@ def moments(
     for axes, step in zip(panels, steps, strict=True):
         CentreLines(run, axes).show(step)
         axes.set_title(f"t = {reached[step] * factor:.4g} {unit}", fontsize=8, loc="left", pad=3)
-    panels[-1].set_xlabel(ALONG_X)
+    panels[-1].set_xlabel(f"{ALONG_X}   dotted: at the start; grey: the surfaces")
     return picture
 
 
