@@ -140,6 +140,8 @@ def test_a_row_switches_a_table_on_and_off(template):
     layers = base | {"thermal": {"layers": 9}}
     assert tables_of(layers, {"thermal": True})["thermal"] == {"layers": 9}
     assert "thermal" not in tables_of(layers, {"thermal": "no"})
+    with pytest.raises(InputError, match="thermal = perhaps: is neither yes nor no"):
+        tables_of(layers, {"thermal": "perhaps"})
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from tehl.api.problem import case_from_tables
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
 from tehl.base.lists import Doubtful, Spelling, lines_of, spelling_of, value_of
+from tehl.contact.problem import ContactProblem
 from tehl.io.case import changed, tables_of_text, toml_tables
 from tehl.io.templates import template_text
 from tehl.studies.case import Case
@@ -285,9 +286,12 @@ def tables_of(base: dict[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]
 def _switched(key: str, value: Any, base: Mapping[str, Any]) -> Any:
     """Return the table that a row switches on or off, as that of the template; else ``value``."""
     word = str(value).lower()
-    if "." in key or key == TITLE or word not in (*_ON, *_OFF):
-        return value
-    return base.get(key, {}) if word in _ON else False
+    if word in (*_ON, *_OFF) and "." not in key and key != TITLE:
+        return base.get(key, {}) if word in _ON else False
+    table = ContactProblem.model_fields.get(key)
+    if table is not None and table.default is None and isinstance(value, str):
+        raise InputError(f"{key} = {value}: is neither yes nor no; the table [{key}] is on or off")
+    return value
 
 
 def _law_of(tables: Mapping[str, Any]) -> str:
