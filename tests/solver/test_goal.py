@@ -544,3 +544,12 @@ def test_cycles_go_on_where_the_oil_balance_alone_exceeds_the_error_to_reach(
     found = replace(errors(0.001, minimum), supply=0.001 + oil)
     run = Mock(goal=goal, balance=Mock(oil_error=oil), errors=lambda: found)
     assert GridIteration.awaits_oil(run) is awaits
+
+
+def test_another_solve_on_the_grid_of_a_result_has_its_domain():
+    """That follows from the error, which stays: without it the inlet begins nearer."""
+    first = solve(moes_contact(20.0, 8.0), Options(error=0.003))
+    again = solve(first.problem, first.grid_options)
+    np.testing.assert_array_equal(again.scaled.x, first.scaled.x)
+    np.testing.assert_array_equal(again.scaled.y, first.scaled.y)
+    assert again.film.central == pytest.approx(first.film.central, rel=first.errors.central)

@@ -360,3 +360,17 @@ def test_other_nodes_keep_the_lines_of_a_roller_and_need_a_part_of_the_time(seco
     end = working_time() + seconds
     assert solved_on_other_nodes(failed, fails, SILENT, end) is None
     assert tried == ([] if seconds < 1.0 else [(321, 161), (385, 193)])
+
+
+def test_other_nodes_have_all_of_the_time_that_is_left(monkeypatch):
+    """A film failed for want of 1.7 s of an hour: it had three times the time of the failed one."""
+    failed, known = failure(100.0, points=33).result, {}
+
+    def tried(*_, **named):
+        known.update(named)
+        return None, failed
+
+    monkeypatch.setattr(steady, "try_strategies", tried)
+    monkeypatch.setattr(steady, "solved_on_other_nodes", lambda _, solve, *__: solve((97, 97)))
+    steady._after_failure(failed, None, SILENT, 1e9)
+    assert (known["nodes"], known["until"]) == ((97, 97), 1e9)

@@ -140,7 +140,7 @@ def test_a_row_switches_a_table_on_and_off(template):
     layers = base | {"thermal": {"layers": 9}}
     assert tables_of(layers, {"thermal": True})["thermal"] == {"layers": 9}
     assert "thermal" not in tables_of(layers, {"thermal": "no"})
-    with pytest.raises(InputError, match="thermal = perhaps: is neither yes nor no"):
+    with pytest.raises(InputError, match="thermal = perhaps: must be yes or no"):
         tables_of(layers, {"thermal": "perhaps"})
 
 

@@ -139,12 +139,16 @@ class Discretisation(Table):
     def on_points(self, nx: int, ny: int) -> Self:
         """Return these options with the nodes ``nx``, ``ny`` stated.
 
+        An error stays, as the domain follows from it, and does not contradict them.
+
         Parameters
         ----------
         nx, ny : int
             Nodes along and across the entrainment, those of the whole domain.
         """
-        return self.model_copy(update={"points": (nx, ny)})
+        found = self.model_copy(update={"points": (nx, ny)})
+        found.model_fields_set.discard("points")
+        return found
 
     @property
     def has_far_field(self) -> bool:
@@ -228,8 +232,9 @@ class Options(Discretisation):
 
 
 def check_nodes(options: Options) -> None:
-    """Raise InputError if both the error to reach and the nodes are stated."""
-    if options.error is not None and options.points != "auto":
+    """Raise InputError if a user states both the error to reach and the nodes."""
+    both = {"error", "points"} <= options.model_fields_set
+    if both and options.error is not None and options.points != "auto":
         raise InputError(
             f"numerics.error = {percentage(options.error)} and numerics.points are both stated: "
             'the error decides the number of nodes; remove one, or set numerics.points = "auto"'

@@ -354,9 +354,8 @@ class Solution:
 
     @property
     def grid_options(self) -> Options:
-        """The options of the solve, with the nodes of this result in place of the error."""
-        nodes = self.options.on_points(self.scaled.x.size, self.scaled.y.size)
-        return nodes.model_copy(update={"error": None})
+        """The options of the solve, with the nodes of this result stated."""
+        return self.options.on_points(self.scaled.x.size, self.scaled.y.size)
 
     @property
     def film(self) -> FilmSummary:

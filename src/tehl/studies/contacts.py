@@ -290,7 +290,7 @@ def _switched(key: str, value: Any, base: Mapping[str, Any]) -> Any:
         return base.get(key, {}) if word in _ON else False
     table = ContactProblem.model_fields.get(key)
     if table is not None and table.default is None and isinstance(value, str):
-        raise InputError(f"{key} = {value}: is neither yes nor no; the table [{key}] is on or off")
+        raise InputError(f"{key} = {value}: must be yes or no, with or without the table [{key}]")
     return value
 
 

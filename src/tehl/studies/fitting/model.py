@@ -60,7 +60,7 @@ def answer(problem: ContactProblem, options: Options) -> Answer | str:
         values={kind: value for kind, value in found.items() if value is not None},
         bars={kind: known.get(one.bar) or 0.0 for kind, one in KINDS.items()},
         reached=_reached(result),
-        options=result.grid_options,
+        options=result.grid_options.model_copy(update={"error": None}),
     )
 
 
