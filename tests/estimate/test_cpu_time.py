@@ -1,8 +1,10 @@
 """CPU time that a solve needs."""
 
+import tomllib
+
 import pytest
 
-from tehl.api.problem import ContactProblem
+from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Options
@@ -10,6 +12,7 @@ from tehl.estimate import cpu_time
 from tehl.estimate.cpu_time import expected_cycles, expected_seconds, seconds_range
 from tehl.estimate.machine import machine_factor
 from tehl.estimate.scaling import ScaledProblem
+from tehl.io.templates import template_text
 from tests.cases import ball_tables, moes_problem
 from tests.reference import heated_contact, moes_contact
 
@@ -92,6 +95,18 @@ def test_hard_contacts_have_a_wider_range_of_time():
     slender = ScaledProblem.of(moes_problem(100.0, 8.0, radius_x=0.02, radius_y=0.01))
     assert seconds_range(heavy, 2.0) == seconds_range(heated, 2.0) == (1.0, 20.0)
     assert seconds_range(slender, 2.0) == (1.0, 20.0)
+
+
+def test_the_grids_expected_of_a_roller_are_those_of_its_solve():
+    """With the coarsest grid of others, 17 x 33 nodes, the time would be a tenth."""
+    problem, _ = case_from_tables(tomllib.loads(template_text("roller")))
+    options = Options(points=(129, 65), wedge_order=3)
+    scaled = ScaledProblem.of(problem)
+    expected = [grid.points for grid, _ in expected_cycles(scaled, options)]
+    found = solve(problem, options)
+    known = list(dict.fromkeys(one.points for one in found.history))
+    assert expected[1:] == known
+    assert expected[0] == (65, 17)
 
 
 def test_thin_films_and_steep_spikes_that_thin_take_longer():

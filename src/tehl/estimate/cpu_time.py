@@ -4,23 +4,14 @@ import math
 
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
-from tehl.estimate.domain import domain_of
 from tehl.estimate.duration import components
-from tehl.estimate.grid import (
-    Grid,
-    can_mirror,
-    coarsest_of,
-    halved_grids,
-    has_long_cells,
-    long_grids,
-)
+from tehl.estimate.grid import Grid
+from tehl.estimate.levels import levels_of
 from tehl.estimate.machine import machine_factor
-from tehl.estimate.nodes import planned
+from tehl.estimate.nodes import finest_grid, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.roughness.model import TileModel
 
-COARSEST_MESH = 1.0
-"""Mesh width along x up to which the coarsest grid with long cells goes [half-widths]."""
 START_TIME, SURFACE_TIME = 0.02, 0.14
 """CPU time of any solve, and of random and measured surfaces, beside the cycles [s]: this and all
 others on the machine of `tehl.estimate.machine`."""
@@ -128,7 +119,7 @@ def expected_cycles(scaled: ScaledProblem, options: Options) -> list[tuple[Grid,
     list of (Grid, int)
         The coarsest grid takes Newton steps only, so zero cycles.
     """
-    coarsest, *grids = _grids(scaled, planned(scaled, options))
+    coarsest, *grids = levels_of(finest_grid(scaled, planned(scaled, options)), scaled)[0]
     cycles = [FIRST_CYCLES] + [CYCLES] * (len(grids) - 1)
     if scaled.problem.is_rough:
         first = next((k for k, grid in enumerate(grids[:-1]) if _has_heights(scaled, grid)), -1)
@@ -158,19 +149,6 @@ def _sampled(problem: ContactProblem) -> int:
 
 def _nodes(grid: Grid) -> int:
     return grid.shape[0] * grid.shape[1]
-
-
-def _grids(scaled: ScaledProblem, plan: Options) -> list[Grid]:
-    """Return the grids, coarsest first; y >= 0 only if the contact is symmetric."""
-    domain, (ny, nx) = domain_of(scaled, plan), plan.shape
-    halves = plan.half_domain == "auto" and scaled.problem.is_even_in_y
-    mirror = halves and can_mirror(plan.shape, domain)
-    wraps, touches = scaled.groups.shape.wraps and not mirror, scaled.problem.asperities
-    finest = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror, wraps=wraps)
-    if has_long_cells(finest, scaled.groups.ellipticity, touches=touches is not None):
-        goes_on = scaled.groups.shape.goes_on
-        return long_grids(finest, coarsest_of(finest, COARSEST_MESH, goes_on=goes_on))
-    return halved_grids(finest)
 
 
 def _has_heights(scaled: ScaledProblem, grid: Grid) -> bool:

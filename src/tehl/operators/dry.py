@@ -31,6 +31,10 @@ lundberg profiles on 257 x 129 and 513 x 257 nodes then errs by 0.7 and 0.2 % (M
 1 % (M = 64, L = 1.3); cycles converge faster with cells 1.35 times as long, but bars of ten rollers
 (M = 5 to 74) are larger, in the median 1.4 times, and three more need a finer grid for 2 %. A thick
 film leaves no step: at H_c = 0.19 cycles on 513 x 257 nodes diverge without the second length."""
+EDGE = 9.0
+"""Dry pressure on the shortest of `SEARCHED_CELLS` at the end of a roller that presses as an edge,
+in those of Hertz: on finer cells it grows without limit, and most smallest films have no error
+bar."""
 START_CELLS = 2.0
 """Half-width of the contact to start from, in cells at the least."""
 STEEP_LINES = 65
@@ -179,13 +183,7 @@ def at_loaded_ends(grid: Grid, groups: Groups) -> Grid:
     """
     if not grid.crowding:
         return grid
-    searched = replace(grid, nx=SEARCHED[0], ny=SEARCHED[1], crowding=0.0)
-    edges, _ = _loaded_part(searched, groups)
-    ramp = 0.0
-    for length in SEARCHED_CELLS:
-        part = length / (groups.ellipticity * searched.dy)
-        crowded = replace(searched, edges=edges, crowding=crowding(part, edges))
-        edges, ramp = _loaded_part(crowded, groups)
+    edges, ramp = _loaded_part(_searched(grid, groups), groups)
     if edges == grid.edges:
         return grid
     longest, film = closest(grid.crowding, grid.edges), expected_central_film(groups)
@@ -194,6 +192,34 @@ def at_loaded_ends(grid: Grid, groups: Groups) -> Grid:
     shortest *= grid.dx / (groups.ellipticity * grid.dy)
     part = min(max(longest * steepness, shortest), longest)
     return replace(grid, edges=edges, crowding=crowding(part, edges))
+
+
+def presses_as_edge(grid: Grid, groups: Groups) -> bool:
+    """Return whether an end of a roller presses as a sharp edge.
+
+    Parameters
+    ----------
+    grid, groups : Grid, Groups
+        As in `at_loaded_ends`.
+    """
+    searched = _searched(grid, groups)
+    pressure = searched.unfold(_dry_roller(searched, groups)[0])
+    return float(max(pressure[0].max(), pressure[-1].max())) > EDGE
+
+
+@lru_cache(maxsize=8)
+def _searched(grid: Grid, groups: Groups) -> Grid:
+    """Return the grid on which the loaded part of a roller is found, with short cells at its ends.
+
+    It depends on the domain of ``grid`` alone.
+    """
+    searched = replace(grid, nx=SEARCHED[0], ny=SEARCHED[1], crowding=0.0)
+    edges, _ = _loaded_part(searched, groups)
+    for length in SEARCHED_CELLS:
+        part = length / (groups.ellipticity * searched.dy)
+        crowded = replace(searched, edges=edges, crowding=crowding(part, edges))
+        edges, _ = _loaded_part(crowded, groups)
+    return crowded
 
 
 def _loaded_part(grid: Grid, groups: Groups) -> tuple[tuple[float, float], float]:

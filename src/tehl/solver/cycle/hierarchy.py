@@ -7,13 +7,8 @@ from itertools import pairwise
 import numpy as np
 
 from tehl.contact.options import Options
-from tehl.estimate.grid import (
-    Grid,
-    coarsest_of,
-    halved_grids,
-    has_long_cells,
-    long_grids,
-)
+from tehl.estimate.grid import Grid, long_grids
+from tehl.estimate.levels import levels_of
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.summits import shared_load
 from tehl.operators.flow import flow_table
@@ -30,15 +25,6 @@ UNRESOLVED = 0.5
 """Mesh width of the coarsest grid, in Hertz half-widths, beyond which it does not resolve the
 contact. One visit then overshoots the load balance (by 100 % at M = 5); a second one, through the
 next finer level, corrects this at negligible cost."""
-LEAST_GRIDS, LARGEST_DENSE = 3, 65
-"""Grids that are kept, and most nodes along x of the coarsest, whose matrix is dense, where a wide
-domain makes the coarsest grid too coarse for the pressure: its load then depends on the rigid
-approach in another way, and the cycles diverge."""
-LINE_COARSEST, ROLLER_COARSEST, LINE_DENSE = 0.15, 0.09, 129
-"""Of a line contact and of a roller: mesh width of the coarsest grid over that of others, and most
-nodes. From 0.1 half-widths on cycles of rollers diverge with a wedge of third order (M = 70). The
-pressure bends the bodies far away, and a grid on which it has few nodes does not correct that: with
-0.6 half-widths the cycles stall at 1e-5 (M = 40 to 240)."""
 LEAST_FILM_OF_W_CYCLE = 0.25
 """Expected central film above which two visits help: for a thinner film such a grid has no valid
 discrete solution, and more visits do harm (M = 200 and more on wide domains)."""
@@ -104,22 +90,7 @@ class Hierarchy:
             Wedge order and deformation; settings of the smoother.
         """
         flow, film = flow_table(scaled), shared_load(scaled).gap
-        high = scaled.problem.asperity_rms / scaled.scales.film_thickness
-        # of the parabolic gap, where film or asperities are thick
-        widest, dense = max(1.0, (2.0 * max(film, high)) ** 0.5), LARGEST_DENSE
-        if scaled.groups.shape.as_line:
-            widest *= ROLLER_COARSEST if finest.is_closed else LINE_COARSEST
-            widest *= scaled.groups.shape.widest
-            dense = LINE_DENSE
-        touches = scaled.problem.asperities is not None
-        is_long = has_long_cells(finest, scaled.groups.ellipticity, touches=touches)
-        if is_long:
-            goes_on = scaled.groups.shape.goes_on
-            grids = long_grids(finest, coarsest_of(finest, widest, goes_on=goes_on))
-        else:
-            grids = halved_grids(finest)
-            while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= dense:
-                del grids[0]
+        grids, is_long = levels_of(finest, scaled)
         levels = [Level(Equations.on(g, scaled, flow, options), relaxation) for g in grids]
         return cls(scaled, options, levels, CoarsestSolver(levels[0]), film, is_long)
 

@@ -57,6 +57,8 @@ class Strategy:
     """Raise the sliding speed from zero over the first sweeps of the energy equation."""
     answers: bool = True
     """Whether contact through a boundary film answers to the oil on coarser grids too."""
+    crowds: bool = True
+    """Whether the lines of a roller crowd at its ends, if the grid of the plan has them so."""
     early: bool = False
     """Begin heat and thinning on a grid with half as many lines: there a front is wide."""
 
@@ -79,7 +81,8 @@ class Strategy:
         order = "" if self.wedge_order is None else ", with a wedge of second order"
         damped = "damped " if self.damping < 1.0 else ""
         apart = "" if self.relaxation.together else ", asperities one by one"
-        return f"the {damped}{self.name} smoother{steps}{order}{apart}"
+        lines = "" if self.crowds else ", on uniform lines"
+        return f"the {damped}{self.name} smoother{steps}{order}{apart}{lines}"
 
 
 SMOOTH = (
@@ -232,7 +235,8 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
         return _between_rough(scaled, options)
     is_second = options.order < 3 and not raises_order(problem, options)
     first, *others = _rungs(problem)
-    if move_together(scaled) and not (problem.contact.is_line or problem.is_coupled):
+    kind = problem.contact
+    if move_together(scaled) and not kind.is_line and (kind.has_lines or not problem.is_coupled):
         others = [EACH_ALONE, *others]
     if is_second or options.wedge_order is not None:
         return (first, *others)

@@ -11,9 +11,11 @@ from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.line import line_bar
 from tehl.estimate.nodes import LIMITED_RATIO, SCARCE, expected_bar, side_bar
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.settled import crowds_at_ends
 from tehl.estimate.spin import ends_within, left_by_spin, spin_error
 from tehl.estimate.starvation import FORMULA_ERROR, supplied_film, supply_error, supply_ratio
 from tehl.estimate.third_order import LEAST_SLENDER, third_order_bar
+from tehl.operators.dry import presses_as_edge
 from tehl.result.bars import ErrorEstimate
 from tehl.solver.cycle.continuation import Roughness
 from tehl.solver.cycle.hierarchy import Hierarchy
@@ -89,7 +91,7 @@ def estimated_errors(
     found = _by_grids(level, traces, roughness, hierarchy)
     if found is None:
         return None
-    bars, at_end = dict(found.bars), is_pressed_at_end(level)
+    bars, at_end = dict(found.bars), _is_pressed_at_end(level, hierarchy.scaled)
     if at_end:
         bars = {name: bar for name, bar in bars.items() if name != "pressure_max"}
     # a boundary film in the middle does not depend on the oil that enters
@@ -118,9 +120,20 @@ def estimated_errors(
         ),
         discretisation_minimum=max(found.discretisation_minimum, least, hidden),
         supply=supply,
-        minimum_has_limit=not is_thinnest_at_end(level),
+        # between smooth surfaces uniform lines do not have the thin film of an end that presses
+        minimum_has_limit=not (
+            is_thinnest_at_end(level) or (at_end and not (level.grid.crowding or is_rough))
+        ),
         pressure_has_limit=not at_end,
     )
+
+
+def _is_pressed_at_end(level: Level, scaled: ScaledProblem) -> bool:
+    """Return whether the pressure is largest at an end, or would be so on a finer grid."""
+    if is_pressed_at_end(level):
+        return True
+    is_uniform = not level.grid.crowding and crowds_at_ends(scaled.problem)
+    return is_uniform and presses_as_edge(level.grid, scaled.groups)
 
 
 def _least_of_minimum(level: Level, hierarchy: Hierarchy, found: ErrorEstimate) -> float:

@@ -31,7 +31,7 @@ from tehl.solver.judging.diagnosis import (
     thinnest,
 )
 from tehl.solver.judging.film_summary import film_summary
-from tehl.solver.judging.measures import is_resolved
+from tehl.solver.judging.measures import is_resolved, is_thinnest_at_end
 from tehl.solver.judging.outputs import asperity_balance, contact_balance, heat_balance
 
 CONVERGED = Status(kind="converged")
@@ -147,6 +147,8 @@ def _thinnest_at_end(level: Level, *, is_pressed: bool) -> Status:
 
     ``is_pressed``: the largest pressure lies at an end too.
     """
+    if is_pressed and not is_thinnest_at_end(level):
+        return _pressed_at_end(level, thins=True)
     smallest, _, y = thinnest(level)
     pressed = f" Nor has the largest pressure, {level.film.p.max():.3g} p_h." if is_pressed else ""
     return Status(
@@ -161,17 +163,24 @@ def _thinnest_at_end(level: Level, *, is_pressed: bool) -> Status:
     )
 
 
-def _pressed_at_end(level: Level) -> Status:
-    """Return ``converged`` with a warning: the largest pressure is that of a sharp end."""
+def _pressed_at_end(level: Level, *, thins: bool = False) -> Status:
+    """Return ``converged`` with a warning: the largest pressure is that of a sharp end.
+
+    ``thins``: the film there becomes the thinnest on finer grids.
+    """
     pressure = level.film.p
     row, column = np.unravel_index(int(pressure.argmax()), pressure.shape)
     return Status(
         kind="converged",
-        cause="largest_pressure_open",
+        cause=f"{'minimum_film_and_' if thins else ''}largest_pressure_open",
         message=(
             f"The pressure is largest ({pressure[row, column]:.3g} p_h) at the sharp end "
-            f"Y = {level.grid.y[row]:.3g} of the roller, where it grows with each finer grid: it "
-            "has no limit, and no error bar."
+            f"Y = {level.grid.y[row]:.3g} of the roller, where it grows with each finer grid"
+            + (
+                ", and the film gets thinner: neither has a limit, or an error bar."
+                if thins
+                else ": it has no limit, and no error bar."
+            )
         ),
         hint=RELIEVE,
     )
