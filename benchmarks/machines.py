@@ -7,6 +7,7 @@ solves N of those that converge again on a grid twice as fine, and a domain twic
 compares with their bars.
 ``--any`` draws contacts of any direction and shape instead, and asks for an error of 2 %; a
 transient run has to end. ``--tables`` draws point contacts with all tables of a case at once.
+``--rollers`` draws rollers of bearings, gears and cams, and asks for the error of their default.
 ``--points N`` solves on a grid of N x N nodes instead of to an error.
 """
 
@@ -23,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks import any_contacts
+from benchmarks import any_contacts, rollers
 from benchmarks.coverage import bars, values
 from benchmarks.measure import attempt
 from benchmarks.table import Cell, Table
@@ -36,6 +37,7 @@ from tehl.contact.options import USUAL_ERROR, Domain, Options
 from tehl.estimate.cpu_time import expected_seconds
 from tehl.estimate.film_formulas import inlet_stress
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.settled import ROLLER_ERROR
 from tehl.report.plausibility import UNPHYSICAL_STRESS
 
 BALLS = ((8, 22), (15, 35), (20, 47), (30, 62), (50, 90), (40, 90), (60, 130), (100, 215))
@@ -302,12 +304,15 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="file for the rows")
     parser.add_argument("--any", action="store_true", help="of any direction and shape")
     parser.add_argument("--tables", action="store_true", help="with all tables at once")
+    parser.add_argument("--rollers", action="store_true", help="of finite length, with ends")
     parser.add_argument("--points", type=int, help="nodes along x and y")
     parser.add_argument("--first", type=int, default=0, help="number of the first contact")
     asked = parser.parse_args()
     draw, error = (any_contacts.contact, ANY_ERROR) if asked.any else (contact, None)
     if asked.tables:
         draw, error = partial(any_contacts.contact, tables_at_once=True), ANY_ERROR
+    if asked.rollers:
+        draw, error = rollers.contact, ROLLER_ERROR
     options = Options(error=error, max_time=asked.limit)
     if asked.points is not None:
         options = Options(points=asked.points, max_time=asked.limit)

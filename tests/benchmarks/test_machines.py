@@ -4,7 +4,7 @@ import pytest
 from benchmarks.machines import KINDS, contact, judged, reached, row
 
 import tehl
-from benchmarks import any_contacts
+from benchmarks import any_contacts, rollers
 from tehl.contact.options import Options
 from tehl.estimate.duration import duration_of, misplaced
 from tehl.estimate.scaling import ScaledProblem
@@ -18,6 +18,20 @@ def test_every_contact_is_a_valid_case_and_the_same_each_time():
         assert (problem.thermal is not None) == ("thermal" in features)
         kinds.add(kind)
     assert kinds == set(KINDS)
+
+
+def test_rollers_of_machines_are_valid_and_the_same_each_time():
+    seen, marks = set(), set()
+    for number in range(60):
+        kind, features, problem = rollers.contact(3, number)
+        assert rollers.contact(3, number) == (kind, features, problem)
+        assert problem.contact.type == "roller"
+        assert (problem.contact.tilt != 0.0) == ("tilt" in features)
+        assert (problem.supply is not None) == ("starved" in features)
+        seen.add(kind)
+        marks |= features
+    assert seen == set(rollers.KINDS)
+    assert marks == {"tilt", "heated", "asperities", "starved"}
 
 
 def test_contacts_count_by_kind_and_feature_and_failures_are_named():

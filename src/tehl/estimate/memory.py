@@ -22,9 +22,9 @@ an isothermal one 0.55."""
 USABLE_MEMORY_PART, USUAL_MEMORY = 0.5, 1.2e9
 """Part of the free memory that a solve takes unasked, and most [byte]: so the process stays below
 1.5 GB."""
-BYTES_CROWDED = 1000
-"""Added per stored node where lines crowd at ends: 230 to 510 by near lines of the finest grid, of
-1025 x 513 nodes, and as much by the coarser ones."""
+BYTES_CROWDED = 1500
+"""Added per stored node where lines crowd at ends: 240 to 540 by near lines of the finest grid, of
+1025 x 513 nodes, and twice that by the coarser ones, 840 to 1520 in all."""
 
 _LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
 """Memory limit of a container. Its usage is not read: it counts caches that can be dropped."""
