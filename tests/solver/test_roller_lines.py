@@ -1,5 +1,7 @@
 """Physics on lines that crowd at the ends of rollers: heat, thinning, scarce oil, asperities."""
 
+from unittest.mock import Mock
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from tehl.api.problem import case_from_tables
 from tehl.contact.options import Options
 from tehl.estimate.scaling import ScaledProblem
 from tehl.solver.cycle.ladder import ladder
+from tehl.solver.judging.verdict import _pressed_at_end
 from tests.solver.runs import mixed_line, multigrid
 from tests.solver.test_roller import LOGARITHMIC, STANDARD, roller
 
@@ -109,6 +112,20 @@ def test_an_end_that_presses_as_an_edge_falls_back_to_uniform_lines_without_a_sm
     # 257 x 129 nodes
     assert found.film_scaled.central == pytest.approx(0.0147, rel=0.02)
     assert "minimum film and largest pressure open" in found.status.outcome
+
+
+def test_the_end_that_will_press_most_is_named_where_uniform_lines_do_not_have_it_yet():
+    level = Mock()
+    level.film.p = np.array([[0.1, 0.2], [1.3, 0.2], [0.4, 0.9]])
+    level.grid = Mock(mirror=True, is_closed=True, shape=(3, 2), y=np.array([0.0, 0.5, 1.0]))
+    level.equations.groups.shape.goes_on = False
+    found = _pressed_at_end(level, thins=True)
+    assert "will be largest (0.9 p_h) at the sharp end Y = 1 of" in found.message
+    assert found.cause == "minimum_film_and_largest_pressure_open"
+    level.film.p[2, 0] = 2.0
+    found = _pressed_at_end(level)
+    assert "is largest (2 p_h) at the sharp end" in found.message
+    assert found.cause == "largest_pressure_open"
 
 
 def test_lines_crowd_beside_asperities_too():

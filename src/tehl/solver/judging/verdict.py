@@ -31,7 +31,7 @@ from tehl.solver.judging.diagnosis import (
     thinnest,
 )
 from tehl.solver.judging.film_summary import film_summary
-from tehl.solver.judging.measures import is_resolved, is_thinnest_at_end
+from tehl.solver.judging.measures import ends_of, is_resolved, is_thinnest_at_end
 from tehl.solver.judging.outputs import asperity_balance, contact_balance, heat_balance
 
 CONVERGED = Status(kind="converged")
@@ -168,19 +168,18 @@ def _pressed_at_end(level: Level, *, thins: bool = False) -> Status:
 
     ``thins``: the film there becomes the thinnest on finer grids.
     """
-    pressure = level.film.p
-    row, column = np.unravel_index(int(pressure.argmax()), pressure.shape)
+    pressures = level.film.p.max(axis=1)
+    row = max(ends_of(level), key=lambda end: float(pressures[end]))
+    # uniform lines may not have it yet
+    is_largest = "is largest" if pressures[row] == pressures.max() else "will be largest"
+    opens = ", and the film gets thinner: neither has a limit, or an" if thins else ""
     return Status(
         kind="converged",
         cause=f"{'minimum_film_and_' if thins else ''}largest_pressure_open",
         message=(
-            f"The pressure is largest ({pressure[row, column]:.3g} p_h) at the sharp end "
-            f"Y = {level.grid.y[row]:.3g} of the roller, where it grows with each finer grid"
-            + (
-                ", and the film gets thinner: neither has a limit, or an error bar."
-                if thins
-                else ": it has no limit, and no error bar."
-            )
+            f"The pressure {is_largest} ({pressures[row]:.3g} p_h) at the sharp end "
+            f"Y = {level.grid.y[row]:.3g} of the roller, where it grows with each finer "
+            f"grid{opens or ': it has no limit, and no'} error bar."
         ),
         hint=RELIEVE,
     )
