@@ -23,6 +23,7 @@ KINDS = (
 GRADES = (10, 32, 68, 100, 220, 460)
 """ISO grades: kinematic viscosity at 40 degC [mm^2/s]."""
 TILTS = {"tapered": 6e-4, "spur gear": 3e-4}
+"""Largest tilts of rollers of bearings and of teeth [rad]."""
 TILTED, HEATED, LEAST_HEATED_SLIDE, ROUGH, STARVED = 0.4, 0.5, 0.02, 0.35, 0.12
 """How often rollers of bearings and teeth are tilted, those that slide by more than the third are
 heated, and any are rough or starved."""

@@ -84,8 +84,8 @@ class Attempt:
 
 CROWDED = 1
 """Strategies that are tried at an end that presses as an edge before lines are uniform: of 59 such
-rollers (crowned or tilted, M = 1 to 111) 57 converge so within 25 s, and with all strategies on
-lines that crowd 47 within 40 s."""
+rollers (M = 1 to 111, seeds 1 to 6 of `benchmarks.rollers`) 57 converge so within 25 s, and with
+all strategies on lines that crowd 47 within 40 s."""
 
 
 @dataclass(frozen=True, slots=True)
