@@ -2,6 +2,7 @@
 
 import copy
 import json
+import math
 import re
 import tomllib
 from dataclasses import replace
@@ -413,3 +414,23 @@ def test_a_load_that_changes_within_few_steps_is_reported():
     assert any("off a straight line within one of" in one for one in stated.questions)
     chosen = explained(transient=course)
     assert not any("off a straight line" in one for one in chosen.questions)
+
+
+def test_the_profile_of_a_roller_and_the_load_of_its_slices_are_shown():
+    """Johns and Gohar: A ln(2 a/(0.6066 b)) at the ends; a tilt loads one of them."""
+    case = tomllib.loads(template_text("roller"))
+    case["contact"]["tilt"] = 0.0
+    even = explain(*case_from_tables(case))
+    roller = even.scaled.groups.roller
+    amplitude = 2.0 * 2e3 / (0.01 * math.pi * even.scaled.problem.reduced_modulus)
+    drop = amplitude * math.log(0.005 / (0.3033 * roller.half_width))
+    profile = as_summary(even)["profile"]
+    assert profile["drop_at_ends_m"] == pytest.approx([drop, drop])
+    assert profile["largest_slice_over_hertz"] == pytest.approx(1.0, abs=0.03)
+    assert f"profile               logarithmic   drops by {length(drop)} at its ends" in as_text(
+        even
+    )
+    case["contact"]["tilt"] = "2 mrad"
+    tilted = as_summary(explain(*case_from_tables(case)))["profile"]
+    assert tilted["largest_slice_over_hertz"] > 1.3
+    assert tilted["loaded_part"] < 0.8

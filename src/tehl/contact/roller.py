@@ -30,6 +30,8 @@ LARGEST_TILT = 0.05
 """Largest tilt of a roller [rad]: real ones have 0.0001 to 0.005."""
 SLICES = 201
 """Slices of a dry roller."""
+ENDS = (-1.0, 1.0)
+"""Both ends of a roller, in half its length."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -93,12 +95,20 @@ class Roller(Line):
         even = not isinstance(self.profile, Tabulated) or self.profile.is_even
         return even and self.tilt == 0.0 and not self.moment
 
+    def drop(self, y: Array) -> Array:
+        """Return how far the profile drops at Y [m]."""
+        no_profile = np.zeros_like(y)
+        return no_profile if self.profile is None else self.profile.drop(y, self)
+
+    @property
+    def drops(self) -> list[float]:
+        """How far it drops at both ends [m]."""
+        return [float(drop) for drop in self.drop(np.array(ENDS))]
+
     def rise(self, y: Array) -> Array:
         """Return g at Y [-]."""
         drop: Array = 0.5 * self.length * self.tilt * y
-        if self.profile is not None:
-            drop = drop + self.profile.drop(np.clip(y, -1.0, 1.0), self)
-        return drop / self.film_unit
+        return (drop + self.drop(np.clip(y, -1.0, 1.0))) / self.film_unit
 
     def gap(self, x: Array, y: Array) -> Array:
         """Return X^2/2 + g(Y)."""
@@ -114,7 +124,16 @@ class Roller(Line):
     @property
     def widest(self) -> float:
         """Half-width of the slice that carries most, over that of the mean load [-]."""
-        return math.sqrt(float(self.share(np.linspace(-1.0, 1.0, SLICES)).max()))
+        return math.sqrt(float(self._shares.max()))
+
+    @property
+    def loaded_part(self) -> float:
+        """Part of the length whose slices carry load [-]."""
+        return float((self._shares > 0.0).mean())
+
+    @property
+    def _shares(self) -> Array:
+        return self.share(np.linspace(-1.0, 1.0, SLICES))
 
     def share(self, y: Array) -> Array:
         """Return the load of slices at Y over the mean one, if each deflects by itself [-].

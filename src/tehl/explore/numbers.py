@@ -107,7 +107,7 @@ def _why_pressure_is_open(errors: ErrorEstimate | None) -> str:
     if errors is None or (errors.pressure_has_limit and errors.spike_resolved):
         return ""
     if not errors.pressure_has_limit:
-        return "at the sharp end of the roller it has no limit"
+        return "open, at an end of the roller"
     return "the spike is narrower than the mesh and may be higher"
 
 

@@ -345,6 +345,7 @@ def as_summary(case: Explanation) -> dict[str, Any]:
 
 def _contact_as_summary(case: Explanation) -> dict[str, Any]:
     problem, hertz = case.scaled.problem, case.scaled.problem.hertz
+    profile, roller = problem.contact.profile, case.scaled.groups.roller
     groups = {"hertz_pressure_pa": hertz.pressure, "hertz_half_width_m": hertz.half_width_x}
     return {
         "title": problem.title,
@@ -355,6 +356,14 @@ def _contact_as_summary(case: Explanation) -> dict[str, Any]:
         "reduced_modulus_pa": problem.reduced_modulus,
         "radius_x_m": problem.radius_x,
         "radius_y_m": None if problem.contact.has_lines else problem.radius_y,
+        "profile": None
+        if profile is None or roller is None
+        else {
+            "shape": profile.shape,
+            "drop_at_ends_m": roller.drops,
+            "largest_slice_over_hertz": roller.widest,
+            "loaded_part": roller.loaded_part,
+        },
     }
 
 

@@ -9,7 +9,7 @@ from tehl.base.units import percentage
 from tehl.contact.heat import FAR_BODY, LAYERS
 from tehl.contact.options import MOST_NODES_PER_AXIS, Domain, Options
 from tehl.contact.problem import ContactProblem
-from tehl.contact.roller import SLICES
+from tehl.contact.roller import ENDS
 from tehl.contact.summits import GreenwoodTripp
 from tehl.contact.tables import Surface
 from tehl.estimate.domain import domain_error, domain_of, proposed_domain
@@ -238,10 +238,9 @@ def _about_ends(scaled: ScaledProblem) -> Iterator[str]:
     roller, hertz = scaled.groups.roller, scaled.problem.hertz
     if roller is None or roller.goes_on:
         return
-    shares = roller.share(np.linspace(-1.0, 1.0, SLICES))
-    part, most = float((shares > 0.0).mean()), float(shares.max())
-    if part < TOUCHING and max(shares[0], shares[-1]) > SHARP_END * most:
-        pressure = hertz.pressure * math.sqrt(most) / 1e9
+    part, most = roller.loaded_part, roller.widest
+    if part < TOUCHING and max(roller.share(np.array(ENDS))) > SHARP_END * most**2:
+        pressure = hertz.pressure * most / 1e9
         yield (
             f"the roller touches on about {percentage(part)} of its length, up to its sharp end, "
             f"at more than {pressure:.2g} GPa: a run may take minutes and not converge; check "

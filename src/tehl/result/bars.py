@@ -73,11 +73,11 @@ class ErrorEstimate:
     is narrower than the mesh and may exceed it."""
 
     minimum_has_limit: bool = True
-    """Whether the minimum film has a limit on finer grids, and so an error bar: not where it lies
-    at the sharp end of a roller, under a pressure that has none."""
+    """Whether these grids show a limit of the minimum film, and so an error bar: not where it lies
+    at the sharp end of a roller, under a pressure that has none, or where lines miss the ends."""
     pressure_has_limit: bool = True
-    """Whether the largest pressure has a limit on finer grids, and so an error bar: not where it is
-    that of the end of a roller."""
+    """Whether these grids show a limit of the largest pressure, and so an error bar: not where it
+    is that of the end of a roller, or where lines miss the ends."""
 
     @property
     def central(self) -> float:

@@ -7,6 +7,7 @@ import numpy as np
 
 from tehl.base.wording import grid_size
 from tehl.contact.options import Options
+from tehl.estimate.grid import Grid
 from tehl.estimate.nodes import finest_grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.dry import at_loaded_ends, presses_as_edge
@@ -82,12 +83,6 @@ class Attempt:
         return not self.is_final, not self.reached, is_wrong, error
 
 
-CROWDED = 1
-"""Strategies that are tried at an end that presses as an edge before lines are uniform: of 59 such
-rollers (M = 1 to 111, seeds 1 to 6 of `benchmarks.rollers`) 57 converge so within 25 s, and with
-all strategies on lines that crowd 47 within 40 s."""
-
-
 @dataclass(frozen=True, slots=True)
 class Climb:
     """The strategies of a ladder, tried in turn on the grid of a plan."""
@@ -152,15 +147,10 @@ class Climb:
 
         Those with another wedge order than that of ``plan`` have as many lines as columns, but of
         wide contacts. Where that is more than planned, the first ones are tried so before: with few
-        lines the edge of scarce oil may not rest. At an end of a roller that presses as an edge
-        lines that crowd are given up soon: uniform ones leave the smallest film open.
+        lines the edge of scarce oil may not rest.
         """
+        rungs = self._for_lines(finest_grid(self.scaled, plan), rungs)
         own = tuple(one for one in rungs if one.wedge_order in (None, plan.order))
-        grid = finest_grid(self.scaled, plan)
-        if grid.crowding and presses_as_edge(grid, self.scaled.groups):
-            uniform = (replace(one, crowds=False) for one in own)
-            yield from ((plan, one) for one in (*own[:CROWDED], *uniform))
-            return
         yield from ((plan, one) for one in own)
         lines, nodes = plan.shape
         if lines > 1 and self.scaled.groups.ellipticity >= 1.0 and len(own) < len(rungs):
@@ -170,6 +160,20 @@ class Climb:
             if one.wedge_order != plan.order:
                 plan = plan.model_copy(update={"wedge_order": one.wedge_order})
             yield plan, one
+
+    def _for_lines(self, grid: Grid, rungs: tuple[Strategy, ...]) -> tuple[Strategy, ...]:
+        """Return the strategies for the lines of a grid, few that crowd where an end is an edge.
+
+        `presses_as_edge`: of 59 such rollers (M = 1 to 111, seeds 1 to 6 of `benchmarks.rollers`)
+        57 converge so within 25 s, and with all strategies on lines that crowd 47 within 40 s.
+        """
+        groups, crowded = self.scaled.groups, tuple(one for one in rungs if one.crowds)
+        uniform = rungs[len(crowded) :]
+        if not at_loaded_ends(grid, groups).crowding:
+            return crowded
+        if uniform and presses_as_edge(grid, groups):
+            crowded = (crowded[0], *(one for one in crowded[1:] if one.insists))
+        return (*crowded, *uniform)
 
     def _attempt(
         self,

@@ -9,13 +9,12 @@ from tehl.estimate.domain import domain_error, far_field_error
 from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.line import line_bar
-from tehl.estimate.nodes import LIMITED_RATIO, SCARCE, expected_bar, side_bar
+from tehl.estimate.nodes import LIMITED_RATIO, SCARCE, expected_bar, finest_grid, side_bar
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.settled import crowds_at_ends
 from tehl.estimate.spin import ends_within, left_by_spin, spin_error
 from tehl.estimate.starvation import FORMULA_ERROR, supplied_film, supply_error, supply_ratio
 from tehl.estimate.third_order import LEAST_SLENDER, third_order_bar
-from tehl.operators.dry import presses_as_edge
+from tehl.operators.dry import at_loaded_ends
 from tehl.result.bars import ErrorEstimate
 from tehl.solver.cycle.continuation import Roughness
 from tehl.solver.cycle.hierarchy import Hierarchy
@@ -91,8 +90,9 @@ def estimated_errors(
     found = _by_grids(level, traces, roughness, hierarchy)
     if found is None:
         return None
-    bars, at_end = dict(found.bars), _is_pressed_at_end(level, hierarchy.scaled)
-    if at_end:
+    at_end, misses = is_pressed_at_end(level), misses_ends(level, hierarchy)
+    bars = dict(found.bars)
+    if at_end or misses:
         bars = {name: bar for name, bar in bars.items() if name != "pressure_max"}
     # a boundary film in the middle does not depend on the oil that enters
     meets = central_value(level.grid, level.share.meets(level).astype(float))
@@ -122,18 +122,28 @@ def estimated_errors(
         supply=supply,
         # between smooth surfaces uniform lines do not have the thin film of an end that presses
         minimum_has_limit=not (
-            is_thinnest_at_end(level) or (at_end and not (level.grid.crowding or is_rough))
+            misses
+            or is_thinnest_at_end(level)
+            or (at_end and not (level.grid.crowding or is_rough))
         ),
-        pressure_has_limit=not at_end,
+        pressure_has_limit=not (at_end or misses),
     )
 
 
-def _is_pressed_at_end(level: Level, scaled: ScaledProblem) -> bool:
-    """Return whether the pressure is largest at an end, or would be so on a finer grid."""
-    if is_pressed_at_end(level):
-        return True
-    is_uniform = not level.grid.crowding and crowds_at_ends(scaled.problem)
-    return is_uniform and presses_as_edge(level.grid, scaled.groups)
+def misses_ends(level: Level, hierarchy: Hierarchy) -> bool:
+    """Return whether lines are uniform where others would crowd at the ends of a roller.
+
+    They miss the thin film and the pressure beside the ends.
+
+    Parameters
+    ----------
+    level, hierarchy : Level, Hierarchy
+        The grid of the film, and its contact.
+    """
+    if level.grid.crowding or not level.grid.is_closed:
+        return False
+    scaled = hierarchy.scaled
+    return at_loaded_ends(finest_grid(scaled, hierarchy.options), scaled.groups).crowding > 0.0
 
 
 def _least_of_minimum(level: Level, hierarchy: Hierarchy, found: ErrorEstimate) -> float:

@@ -30,6 +30,7 @@ from tehl.solver.judging.diagnosis import (
     not_reached,
     thinnest,
 )
+from tehl.solver.judging.film_errors import misses_ends
 from tehl.solver.judging.film_summary import film_summary
 from tehl.solver.judging.measures import ends_of, is_resolved, is_thinnest_at_end
 from tehl.solver.judging.outputs import asperity_balance, contact_balance, heat_balance
@@ -137,9 +138,28 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
         error = max(error, errors.discretisation_minimum)
     if error > LARGEST_FILM_BAR:
         return too_coarse(points, run.hierarchy.scaled, error)
-    if not errors.minimum_has_limit:
+    if misses_ends(level, run.hierarchy):
+        return _missed_at_ends(level)
+    if is_thinnest_at_end(level):
         return _thinnest_at_end(level, is_pressed=not errors.pressure_has_limit)
-    return CONVERGED if errors.pressure_has_limit else _pressed_at_end(level)
+    is_open = not (errors.minimum_has_limit and errors.pressure_has_limit)
+    return _pressed_at_end(level, thins=not errors.minimum_has_limit) if is_open else CONVERGED
+
+
+def _missed_at_ends(level: Level) -> Status:
+    """Return ``converged`` with a warning: uniform lines miss what happens at the ends."""
+    smallest, largest = level.film.h.min(), level.film.p.max()
+    return Status(
+        kind="converged",
+        cause="minimum_film_and_largest_pressure_open",
+        message=(
+            "The cycles converged on uniform lines only, which do not have the thin film and the "
+            "high pressure at the ends of this roller: the minimum film "
+            f"(here H = {smallest:.3g}) and the largest pressure (here {largest:.3g} p_h) have no "
+            "error bar."
+        ),
+        hint=RELIEVE,
+    )
 
 
 def _thinnest_at_end(level: Level, *, is_pressed: bool) -> Status:
@@ -147,8 +167,6 @@ def _thinnest_at_end(level: Level, *, is_pressed: bool) -> Status:
 
     ``is_pressed``: the largest pressure lies at an end too.
     """
-    if is_pressed and not is_thinnest_at_end(level):
-        return _pressed_at_end(level, thins=True)
     smallest, _, y = thinnest(level)
     pressed = f" Nor has the largest pressure, {level.film.p.max():.3g} p_h." if is_pressed else ""
     return Status(
@@ -170,14 +188,12 @@ def _pressed_at_end(level: Level, *, thins: bool = False) -> Status:
     """
     pressures = level.film.p.max(axis=1)
     row = max(ends_of(level), key=lambda end: float(pressures[end]))
-    # uniform lines may not have it yet
-    is_largest = "is largest" if pressures[row] == pressures.max() else "will be largest"
     opens = ", and the film gets thinner: neither has a limit, or an" if thins else ""
     return Status(
         kind="converged",
         cause=f"{'minimum_film_and_' if thins else ''}largest_pressure_open",
         message=(
-            f"The pressure {is_largest} ({pressures[row]:.3g} p_h) at the sharp end "
+            f"The pressure is largest ({pressures[row]:.3g} p_h) at the sharp end "
             f"Y = {level.grid.y[row]:.3g} of the roller, where it grows with each finer "
             f"grid{opens or ': it has no limit, and no'} error bar."
         ),
