@@ -136,14 +136,14 @@ def test_rollers_on_which_coarse_grids_oscillate_insist_on_finer_ones():
         return ladder(ScaledProblem.of(roller(**shape)), options, rough=False)
 
     steep = strategies(20.0)
-    assert steep[1].insists
+    assert steep[1].early
     assert [one.crowds for one in steep[:3]] == [True, True, False]
-    assert not any(one.insists for one in strategies(5.0))
+    assert not any(one.early for one in strategies(5.0))
 
 
-@pytest.mark.parametrize("insists", [True, False])
-def test_a_strategy_that_insists_tries_the_finest_grid_after_a_coarser_one_that_oscillates(
-    monkeypatch, insists
+@pytest.mark.parametrize("early", [True, False])
+def test_a_strategy_that_heats_early_tries_the_finest_grid_after_one_that_oscillates(
+    monkeypatch, early
 ):
     answers = {"_approximate": False, "_runs_away": False, "_is_last": False}
     for name, answer in {**answers, "_has_converged": True}.items():
@@ -151,10 +151,10 @@ def test_a_strategy_that_insists_tries_the_finest_grid_after_a_coarser_one_that_
     tried = Mock()
     monkeypatch.setattr(FilmSolver, "_improve_finest", tried)
     run = multigrid(roller(profile=LOGARITHMIC), Options(points=(257, 129)))
-    run.accepted, run.strategy = False, replace(run.strategy, insists=insists)
-    with nullcontext() if insists else pytest.raises(DivergedError):
+    run.accepted, run.strategy = False, replace(run.strategy, early=early)
+    with nullcontext() if early else pytest.raises(DivergedError):
         run.solve(force=False)
-    assert tried.called == insists
+    assert tried.called == early
 
 
 def test_lines_crowd_beside_asperities_too():

@@ -172,7 +172,7 @@ class Climb:
         if not at_loaded_ends(grid, groups).crowding:
             return crowded
         if uniform and presses_as_edge(grid, groups):
-            crowded = (crowded[0], *(one for one in crowded[1:] if one.insists))
+            crowded = (crowded[0], *(one for one in crowded[1:] if one.early))
         return (*crowded, *uniform)
 
     def _attempt(

@@ -114,7 +114,7 @@ class FilmSolver(GridIteration):
 
         def improve(levels: Sequence[Level]) -> None:
             if levels[-1] is self.finest:
-                if not (self.accepted or force or self.strategy.insists):
+                if not (self.accepted or force or self.strategy.early):
                     raise DivergedError
                 self._improve_finest(force=force)
             else:

@@ -53,8 +53,6 @@ class Strategy:
     """Order of the wedge on this rung, if it is another than that of the options."""
     gives_up: bool = False
     """End it on the finest grid as soon as its cycles recede, as another strategy follows."""
-    insists: bool = False
-    """Try the finest grid though the cycles of the coarser one led away or came to no rest."""
     slide_in_steps: bool = False
     """Raise the sliding speed from zero over the first sweeps of the energy equation."""
     answers: bool = True
@@ -62,7 +60,9 @@ class Strategy:
     crowds: bool = True
     """Whether the lines of a roller crowd at its ends, if the grid of the plan has them so."""
     early: bool = False
-    """Begin heat and thinning on a grid with half as many lines: there a front is wide."""
+    """Begin heat and thinning on a grid with half as many lines: there a front is wide. The finest
+    grid is tried though the cycles of the coarser one come to no rest: of six rollers with L = 20
+    to 36 on which all others fail five converge so."""
 
     @property
     def name(self) -> str:
@@ -167,9 +167,6 @@ UNCOMBINED = Strategy(relaxation=BROAD, damping=0.5, patience=3, early=True)
 AT_EDGES = replace(UNCOMBINED, relaxation=FRONTS)
 """The same where little oil carries a heavy load, and large steps at the edge of its film diverge:
 two of five bearings and rigs (M = 9,000 to 43,000) that fail with the broad smoother converge."""
-AT_ENDS = replace(UNCOMBINED, insists=True)
-"""The same on rollers with L above `STEEP_SPEED`, whose coarse grids oscillate and finer ones
-converge: of six with L = 20 to 36 on which all others fail five converge by it."""
 THIRD_ORDER_STRATEGIES = 2
 """Strategies that are tried with a wedge of third order before one of second order."""
 COMBINED_CYCLES = 3
@@ -261,7 +258,7 @@ def _second(scaled: ScaledProblem) -> tuple[Strategy, ...]:
         return ()
     alone = move_together(scaled) and (kind.has_lines or not problem.is_coupled)
     steep = kind.has_lines and problem.is_coupled and scaled.groups.L > STEEP_SPEED
-    return (EACH_ALONE,) * alone + (AT_ENDS,) * steep
+    return (EACH_ALONE,) * alone + (UNCOMBINED,) * steep
 
 
 def _between_rough(scaled: ScaledProblem, options: Options) -> tuple[Strategy, ...]:
