@@ -24,6 +24,7 @@ from tehl.kernels.energy.march import (
     UNDONE_KELVIN,
 )
 from tehl.kernels.energy.records import ETA_TERMS, GHOSTS, Across, Fields, Laws, Model, Surfaces
+from tehl.kernels.energy.shear import LARGEST_THINNING
 
 
 @dataclass
@@ -76,6 +77,12 @@ def properties(laws: Laws, p: Array, t: Array) -> tuple[Array, Array, Array, Arr
 
 def thinning(laws: Laws, s: Array) -> tuple[Array, Array]:
     """Return F, Newtonian over effective viscosity at a stress s, and dln F/dln s."""
+    if laws.knee:
+        inside = np.minimum(s, laws.knee)
+        rate = -np.log1p(-inside)
+        slope = 1.0 / ((1.0 - inside) * rate) - 1.0 / inside
+        log_f = np.log(rate / inside) + (s - inside) * slope
+        return np.exp(np.minimum(log_f, LARGEST_THINNING)), slope * s
     end = (laws.last_stress + 1) / laws.per_stress
     inside = np.minimum(s, end / (1.0 - end))  # beyond the table ln F is linear in s
     t, parts = cubic(laws.thinning, inside / (1.0 + inside) * laws.per_stress, laws.last_stress)

@@ -1,5 +1,6 @@
 """Properties of every heated or shear-thinning film: invariance, symmetry, limits."""
 
+import math
 import tomllib
 from functools import cache
 from typing import Any
@@ -16,8 +17,10 @@ from tehl.contact.options import Options
 from tehl.estimate.inlet_heating import inlet_factors
 from tehl.io.templates import template_text
 from tehl.operators import surfaces
+from tehl.post.heat import work_error
 from tehl.result.fields import FilmHeat
 from tehl.solver import steady
+from tehl.solver.attempts import Attempt
 from tehl.solver.monitor import SILENT
 from tehl.solver.steady import try_strategies
 from tests.reference import heated_contact
@@ -280,7 +283,8 @@ def test_surfaces_of_a_thin_film_become_warm_together():
 
 
 @pytest.mark.slow
-def test_temperatures_of_a_very_hot_inlet_rest_between_the_layers_of_its_oil():
+def test_temperatures_of_a_very_hot_inlet_rest_between_the_layers_of_its_oil(monkeypatch):
+    monkeypatch.setattr(Attempt, "at_rest", lambda attempt: attempt)  # it would drop the state
     # 46 m/s, a thermal loading of 57: with nine nodes across the film they swing by several kelvin
     problem = any_contacts.contact(151, 52)[2].model_copy(update={"supply": None})
     attempt, _ = try_strategies(problem, Options(points=(193, 97)), monitor=SILENT, rough=False)
@@ -327,6 +331,37 @@ def test_oil_that_heats_out_of_its_limiting_stress_does_not_swing(monkeypatch):
     last = found.history[-1]
     assert last.temperature_change < 0.1 * last.temperature_rise
     assert last.cycle < 10
+
+
+TRACTION_LINE = """
+surface_1 = { material = "steel" }
+surface_2 = { material = "steel" }
+thermal = {}
+
+[contact]
+type = "line"
+radius = "30 mm"
+hertz_pressure = "2.8 GPa"
+entrainment_speed = "10 m/s"
+slide_roll_ratio = 0.01
+
+[lubricant]
+name = "santotrac-50"
+temperature = "90 degC"
+shear = { law = "limiting", slope = 0.09, stress = "2 MPa" }
+"""
+
+
+def test_oil_at_its_limiting_stress_slides_and_heats_however_stiff_it_is():
+    """By alpha p_h = 62: a stress that ended 2 % above the limit lost 78 % of the heat."""
+    found = solve(case_from_tables(tomllib.loads(TRACTION_LINE))[0], Options(points=513))
+    assert abs(work_error(found)) < 0.005
+    heat = found.heat.balance
+    assert heat.shear == pytest.approx(found.traction.friction_power, rel=0.005)
+    assert heat.surface_1 + heat.surface_2 == pytest.approx(heat.shear, rel=0.02)
+    # the limit, 0.09 and 2 MPa over the mean pressure of a line, but for the edges
+    most = 0.09 + 2e6 / (math.pi / 4.0 * 2.8e9)
+    assert 0.98 * most < -found.traction.mid_film < most
 
 
 def test_errors_of_surface_temperatures_that_do_not_matter_are_left(monkeypatch):

@@ -6,7 +6,7 @@ from tehl.api.results import Result, TransientResult
 from tehl.cli.lazily import explanations
 from tehl.cli.reference_runs import Comparisons
 from tehl.post.film import no_film
-from tehl.post.heat import work_error
+from tehl.post.heat import UNTRUSTED_HEAT, work_error
 from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.report.readable import UNTITLED, error_text, length_unit
 from tehl.report.rendering import render
@@ -35,6 +35,7 @@ def as_text(result: Result | TransientResult, compared: Comparisons | None = Non
         share=at("load_sharing.share"),
         rough=compared.rough_film or start.roughness,
         title=start.problem.title or UNTITLED,
+        untrusted=UNTRUSTED_HEAT,
         work_error=work_error(start),
     ).rstrip()
 

@@ -25,7 +25,7 @@ LEAST_LIMIT = 1e5
 LARGEST_SHEAR_RATE = 1e8
 """Dimensionless shear rate up to which a table of ``ln F`` is needed."""
 
-_KNEE = 0.9999  # part of the limiting stress from which on ln F is a straight line
+_KNEE = 1.0 - 1e-6  # part of the limiting stress from which on ln F is a straight line
 _KNEE_RATE = -math.log1p(-_KNEE)
 _KNEE_LOG = math.log(_KNEE_RATE / _KNEE)
 _KNEE_SLOPE = 1.0 / ((1.0 - _KNEE) * _KNEE_RATE) - 1.0 / _KNEE
@@ -42,6 +42,11 @@ class ShearModel(Law):
     def is_newtonian(self) -> bool:
         """Whether F is one at every stress."""
         return False
+
+    @property
+    def knee(self) -> float:
+        """Part of a limiting stress from which on ln F is a straight line; 0 without a limit."""
+        return 0.0
 
     @property
     def largest_stress(self) -> float:
@@ -200,8 +205,9 @@ class Limiting(ShearModel):
     .. math:: \tau = \tau_L \left[1 - e^{-\eta\dot\gamma/\tau_L}\right], \quad
               \tau_L = \tau_{L0} + \Lambda p, \quad F = -\ln(1 - s)/s
 
-    From ``s = 0.9999`` on, ln F goes on as a straight line, so that every stress has a rate. The
-    limit is then exceeded by 0.6 % at ``y = 1e4`` and by 1.5 % at ``y = 1e8``.
+    From ``s = 1 - 1e-6`` on, ln F goes on as a straight line, so that every stress has a rate. The
+    limit is then exceeded by 2e-4 at ``y = 1e8``, and by 7e-4 at ``y = 1e24``, as traction drives
+    have it.
 
     Notes
     -----
@@ -227,6 +233,11 @@ class Limiting(ShearModel):
         if not (self.stress > 0 or self.slope > 0):
             raise ValueError('needs stress or slope, such as slope = 0.04 or stress = "20 MPa"')
         return self
+
+    @property
+    def knee(self) -> float:
+        """Part of the limit from which on ln F is a straight line."""
+        return _KNEE
 
     def stress_scale(self, pressure: Values) -> Values:
         """Return tau_L [Pa] at ``pressure`` [Pa]."""

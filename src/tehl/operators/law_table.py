@@ -34,6 +34,11 @@ SOLID = 300.0
 """ln eta above which the viscosity is cut off: the film is effectively solid."""
 
 
+LARGEST_STRESS, LARGEST_LOG = 1000.0, 340.0
+"""Dimensionless stress at which a table of ln F ends at the latest, and ln F up to which stresses
+of oil that yields as a whole may grow: above `SOLID`, so that it takes any sliding."""
+
+
 @lru_cache(maxsize=8)
 def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
     """Tabulate viscosity, density and thinning of ``lubricant``.
@@ -105,7 +110,18 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
         newtonian_limit=newtonian_limit(lubricant),
         newtonian=int(lubricant.shear.is_newtonian),
         uniform=int(lubricant.shear.yields_as_a_whole),
+        most=stress_limit(lubricant),
+        knee=lubricant.shear.knee,
     )
+
+
+def stress_limit(lubricant: Lubricant) -> float:
+    """Return the dimensionless stress at which ln F, a straight line at the end, is largest."""
+    shear = lubricant.shear
+    end = np.array(shear.knee or min(shear.largest_stress, LARGEST_STRESS))
+    last, step = float(shear.log_thinning(end)), 1e-6
+    slope = (float(shear.log_thinning(end + step)) - last) / step
+    return float(end) + (LARGEST_LOG - last) / max(slope, 1e-9)
 
 
 def newtonian_limit(lubricant: Lubricant) -> float:
@@ -161,7 +177,7 @@ def _terms(
 
 def thinning_table(lubricant: Lubricant) -> tuple[Array, float]:
     """Return ln F and its slope over s/(1 + s), and the rows per unit of it."""
-    top = min(lubricant.shear.largest_stress, 1000.0)
+    top = min(lubricant.shear.largest_stress, LARGEST_STRESS)
     step = top / (1.0 + top) / (STRESSES - 1)
     row = step * np.arange(float(STRESSES))
     shift = 0.1 * step

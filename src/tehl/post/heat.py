@@ -13,6 +13,8 @@ from tehl.result.solution import Solution
 
 PLACE_DIGITS = 12
 """Decimals of a place in half-widths: the middle of a grid is zero only to rounding."""
+UNTRUSTED_HEAT = 0.2
+"""Error of the power that the surfaces transfer above which temperatures are not to be trusted."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -79,7 +79,9 @@ class Laws(NamedTuple):
     and its slope times the step over s/(1 + s), ``per_stress`` rows per unit. ``last_row,
     last_stress``: rows where the last interval of either begins. ``newtonian_limit`` is the
     dimensionless stress below which ln F is negligible; ``newtonian`` is 1 if it always is,
-    ``uniform`` if the stress at mid-film determines the thinning of all layers.
+    ``uniform`` if the stress at mid-film determines the thinning of all layers, with ``most`` the
+    largest such stress. ``knee``: the part of a limiting stress from which on ln F is a straight
+    line, 0 of other laws.
     """
 
     fluid: Array
@@ -99,6 +101,8 @@ class Laws(NamedTuple):
     newtonian_limit: float
     newtonian: int
     uniform: int
+    most: float
+    knee: float
 
 
 class Terms(NamedTuple):

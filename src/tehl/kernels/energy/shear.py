@@ -12,8 +12,8 @@ from tehl.kernels.energy.laws import exponential
 from tehl.kernels.energy.records import Laws, Model, Terms
 from tehl.kernels.lanes import Lanes, greater, largest, lesser, log, lookup, root, truncate, where
 
-LARGEST_THINNING = 200.0  # ln F
-BEYOND_LIMIT = 1.02  # of a limiting stress; there ln F is above 20
+LARGEST_THINNING = 350.0  # ln F
+SMALL_STRESS = 1e-3  # of a limiting one, below which ln F is a series
 SETTLED = 1e-5  # step of the stress over its scale; the error left is of the order of its square
 LEAST_SQUARED_STRESS = 1e-300
 
@@ -23,8 +23,11 @@ def thinning(laws: Laws, stress: Lanes) -> tuple[Lanes, Lanes]:
     """Return F and s dlnF/ds at dimensionless stresses s.
 
     ln F is interpolated by cubic Hermite polynomials over s/(1 + s), and linear in s beyond the
-    table.
+    table. That of a limiting stress, which a table would not resolve, is computed.
     """
+    if laws.knee > 0.0:
+        log_f, slope = _limiting(laws, stress)
+        return exponential(lesser(log_f, LARGEST_THINNING)), slope * stress
     last = laws.last_stress
     end = (last + 1) / laws.per_stress
     s = lesser(stress, end / (1.0 - end))
@@ -38,6 +41,19 @@ def thinning(laws: Laws, stress: Lanes) -> tuple[Lanes, Lanes]:
     slope = (first + t * (2.0 * square + 3.0 * t * cube)) * (laws.per_stress * part * part)
     log_f = start + t * (first + t * (square + t * cube)) + (stress - s) * slope
     return exponential(lesser(log_f, LARGEST_THINNING)), slope * stress
+
+
+@helper
+def _limiting(laws: Laws, stress: Lanes) -> tuple[Lanes, Lanes]:
+    """Return ln F and its slope for F = -ln(1 - s)/s, from ``knee`` on a straight line."""
+    inside = lesser(stress, laws.knee)
+    large = greater(inside, SMALL_STRESS)
+    left = 1.0 - large
+    rate = -1.0 * log(left)
+    is_small = inside < SMALL_STRESS
+    log_f = where(is_small, inside * (0.5 + inside * (5.0 / 24.0)), log(rate / large))
+    slope = where(is_small, 0.5 + inside * (5.0 / 12.0), 1.0 / (left * rate) - 1.0 / large)
+    return log_f + (stress - inside) * slope, slope
 
 
 @helper
@@ -73,7 +89,7 @@ def _logarithmic(target: Lanes, rate: Lanes) -> Lanes:
     With r = target/rate that is ``ln r / (r - 1)``; it is one if the target is zero or the rate
     has the opposite sign.
     """
-    ratio = lesser(greater(target / (rate + LEAST_SQUARED_STRESS), 1e-9), 1e9)
+    ratio = lesser(greater(target / (rate + LEAST_SQUARED_STRESS), 1e-90), 1e90)
     other = ratio - 1.0
     far = abs(other) > 1e-6
     grown = where(far, log(ratio) / where(far, other, 1.0), 1.0)
@@ -90,7 +106,7 @@ def _stress_step(model: Model, line: Record, layers: Records) -> float:
     """
     scale, along, across = line.over_scale, line.slide_x / line.h, line.slide_y / line.h
     zero = 0.0 * scale
-    rate_x, rate_y, xx, xy, yy = zero, zero, zero, zero, zero
+    rate_x, rate_y, xx, xy, yy, bend = zero, zero, zero, zero, zero, zero
     for k in range(layers.shape[0]):
         x, y = stress_at(model.terms, line, _thinning_arm(model, k))
         square = x * x + y * y
@@ -118,7 +134,8 @@ def _stress_step(model: Model, line: Record, layers: Records) -> float:
         dy,
         grown * lesser(_longest(line) / (grown * step + LEAST_SQUARED_STRESS), 1.0),
     )
-    return largest(step)
+    # beside a limit the rate changes much more than the stress
+    return largest(step * (1.0 + bend)) if model.laws.uniform else largest(step)
 
 
 @helper
@@ -130,11 +147,11 @@ def _longest(line: Record) -> Lanes:
 
 @helper
 def _take_step(model: Model, line: Record, dx: Lanes, dy: Lanes, part: Lanes) -> None:
-    """Take a part of a step; the stress stays below `BEYOND_LIMIT` times a limiting stress."""
+    """Take a part of a step; a limiting stress stays where ln F is finite."""
     x, y = line.tau_x - part * dx, line.tau_y - part * dy
     if model.laws.uniform:
         factor = lesser(
-            BEYOND_LIMIT / (line.over_scale * root(x * x + y * y) + LEAST_SQUARED_STRESS), 1.0
+            model.laws.most / (line.over_scale * root(x * x + y * y) + LEAST_SQUARED_STRESS), 1.0
         )
         x, y = factor * x, factor * y
     line.tau_x = x

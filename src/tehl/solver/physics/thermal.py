@@ -38,7 +38,7 @@ SMALL_KELVIN_CHANGE, SMALL_RISE_CHANGE = 0.05, 0.0015
 both over that rise, below which the sweep of the next cycle is skipped."""
 LEAST_SWEEPS = 2
 """Sweeps on a grid before one may be skipped."""
-FIRST_STRESS_STEPS, STRESS_STEPS = 40, 3
+FIRST_STRESS_STEPS, STRESS_STEPS = 40, 12
 """Newton steps for the shear stress in the first sweeps and later."""
 RAMP = 24
 """Sweeps over which the sliding speed is raised from zero in `Strategy.slide_in_steps`."""
