@@ -486,3 +486,23 @@ def test_a_contact_that_outgrows_its_domain_is_named():
     grows = {"load": [[0.0, 1.0], [UNIT, 4.0]]}
     with pytest.raises(InputError, match="beyond the edge of the domain"):
         changing(129, [-4.5, 1.5], 1.0, **grows)
+
+
+def test_a_film_at_rest_may_become_very_thin_and_is_not_called_negative():
+    """A line (M = 10, L = 16) that stops has 0.022 of its film at its edges 4 ms later."""
+    runs = [
+        Run(case, Options(points=129), case.transient, SILENT)
+        for case in (
+            line(20, 10, transient={"duration": UNIT} | CHANGES[name])
+            for name in ("load", "reverse")
+        )
+    ]
+    loaded, stops = (run.level.equations.floor for run in runs)
+    assert stops == pytest.approx(0.05 * loaded)
+    film = runs[1].level.film.h
+    film[:] = 0.5 * stops
+    status = runs[1]._touching(1e-3)
+    assert status.cause == "film_not_positive"
+    assert "the film is thinner than its equations are solved for: smallest H" in status.message
+    film[:] = -1.0
+    assert "the film is not positive: smallest H = -1" in runs[1]._touching(1e-3).message

@@ -401,8 +401,9 @@ class Run:
         """Return ``asperity_contact``, or ``film_not_positive`` of smooth surfaces."""
         grid, h = self.level.grid, self.level.film.h
         row, column = np.unravel_index(int(np.argmin(h)), h.shape)
+        how = "not positive" if h.min() <= 0.0 else "thinner than its equations are solved for"
         where = (
-            f"At {seconds:.4g} s the film is not positive: smallest H = {h.min():.3g} at "
+            f"At {seconds:.4g} s the film is {how}: smallest H = {h.min():.3g} at "
             f"X = {grid.x[column]:.3g}, Y = {grid.y[row]:.3g}"
         )
         if self.problem.is_rough:
@@ -420,12 +421,10 @@ class Run:
         else:
             cause = "film_not_positive"
             message = (
-                f"{where}, between smooth surfaces: the load grows too fast, or beyond the domain. "
-                "The steps before it are kept."
+                f"{where}, between smooth surfaces: the load grows too fast, or beyond the domain, "
+                "or no oil comes. The steps before it are kept."
             )
-            hint = Hint(
-                "Let the load grow more slowly or less, or take more nodes (numerics.points)."
-            )
+            hint = Hint("Let load or speed change less, or take more nodes (numerics.points).")
         return Status(kind="not_converged", cause=cause, message=message, hint=hint)
 
     def result(self, status: Status) -> TransientSolution:
