@@ -13,6 +13,7 @@ from tehl.api.results import TransientResult, result_of
 from tehl.cli.text import as_text
 from tehl.contact.moment import Moment, courses_of, moment_at
 from tehl.contact.options import Domain, Options
+from tehl.estimate.duration import stride_on
 from tehl.estimate.film_formulas import expected_film
 from tehl.estimate.nodes import planned
 from tehl.estimate.scaling import ScaledProblem, scales
@@ -23,6 +24,7 @@ from tehl.operators.reynolds import carried
 from tehl.operators.trail import VaryingTrail
 from tehl.post.transient import film_at, way
 from tehl.solver.monitor import SILENT
+from tehl.solver.transient import certify as certifying
 from tehl.solver.transient.oil import Lead, Oil
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import Snapshot, pack, unpack
@@ -506,3 +508,34 @@ def test_a_film_at_rest_may_become_very_thin_and_is_not_called_negative():
     assert "the film is thinner than its equations are solved for: smallest H" in status.message
     film[:] = -1.0
     assert "the film is not positive: smallest H = -1" in runs[1]._touching(1e-3).message
+
+
+def test_steps_between_smooth_surfaces_are_as_long_on_fine_grids_as_on_usual_ones():
+    """On 513 nodes films of the template of gears differ by 0.03 % (median) and 0.6 % from those of
+    half the steps, by less than their errors."""
+    slow = {"duration": 20.0 * UNIT, "load": [[0.0, 1.0], [20.0 * UNIT, 1.2]]}
+    widths = {1: 0.03, 2: 0.0099, 8: 0.0012}
+    scaled = ScaledProblem.of(line(20, 10, transient=slow))
+    assert [stride_on(scaled, width, 0.005) for width in widths.values()] == list(widths)
+    stated = ScaledProblem.of(line(20, 10, transient=slow | {"stride": 1}))
+    assert stride_on(stated, 0.0012, 0.005) == 1
+    fast = slow | {"load": f"1 + 0.3*sin(6.28*t/({0.1 * UNIT!r} s))"}
+    assert stride_on(ScaledProblem.of(line(20, 10, transient=fast)), 0.0012, 0.005) < 8
+    wave = {"type": "wave", "amplitude": 1e-8, "wavelength": 1e-4, "angle": 0.0}
+    rough = line(20, 10, transient=slow, surface_1={"material": "steel", "roughness": wave})
+    assert stride_on(ScaledProblem.of(rough), 0.0012, 0.005) == 1
+
+
+def test_the_grids_that_certify_a_run_have_its_stride(monkeypatch):
+    strides, solved = [], certifying.solve_transient
+
+    def noted(problem, *args, **named):
+        strides.append(problem.transient.stride)
+        return solved(problem, *args, **named)
+
+    monkeypatch.setattr(certifying, "solve_transient", noted)
+    case = line(20, 10, transient={"duration": 0.3 * UNIT, "load": [[0.0, 1.0], [UNIT, 1.2]]})
+    found = certify_transient(case, Options(points=513, domain=Domain(x=(-3.0, 1.5))))
+    assert found.status.converged
+    assert strides == [1, 2, 2, 2]  # the first is not stated
+    assert found.time_step == pytest.approx(2.0 * 4.5 / 512.0 * UNIT)

@@ -30,7 +30,7 @@ class Transient(Table):
     2.5 wavelengths."""
     stride: Annotated[int, Field(ge=1, le=8)] = 1
     """Mesh widths that the mean motion passes per time step: changes are resolved as on a grid
-    coarser by this factor."""
+    coarser by this factor. Left out, it is 1, and on fine grids more between smooth surfaces."""
     start: Literal["smooth", "standing"] = "smooth"
     """Film at time zero: of smooth surfaces, with waves and random surfaces that enter from the
     inlet; or the steady film of the rough surfaces at rest."""

@@ -23,6 +23,10 @@ MOST_FOR_COURSES = 256
 """Most time steps that a grid is refined for, so that they follow what changes in time."""
 PERIODS = 2.5
 """Wavelengths of a harmonic surface that pass the centre, so that a fit over time has two."""
+STEP_OF_SMOOTH, LONGEST_STRIDE = 0.02, 8
+"""Way of the mean motion in a time step between smooth surfaces [a_x], the mesh width of 257 nodes
+on the usual domain, and the mesh widths that it is at the most: finer grids resolve a thin film,
+whose changes are as slow as on others."""
 LONGEST_WAVE = 6.0
 """Longest wave along x that extends a run [a_x]: longer ones tilt the surfaces as a whole."""
 
@@ -231,6 +235,33 @@ def steps_of_courses(scaled: ScaledProblem, part: float) -> int:
     while steps < MOST_FOR_COURSES and bend_between(scaled, steps) > part:
         steps *= 2
     return steps
+
+
+def stride_on(scaled: ScaledProblem, mesh_width: float, part: float) -> int:
+    """Return the mesh widths that the mean motion passes per time step on a grid.
+
+    The stated ``stride``; left out, between smooth surfaces as many as `STEP_OF_SMOOTH` has, but no
+    more than follow what changes in time.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        A transient problem.
+    mesh_width : float
+        Along x [a_x].
+    part : float
+        Of the largest value by which a step may miss what changes, as `bend_between` [-].
+    """
+    transient, scales = scaled.problem.transient, scaled.scales
+    if transient is None:
+        return 1
+    if "stride" in transient.model_fields_set or scaled.problem.is_rough:
+        return transient.stride
+    way = duration_of(scaled) * scales.speed / scales.half_width_x
+    found = min(max(int(STEP_OF_SMOOTH / mesh_width * (1.0 + 1e-9)), 1), LONGEST_STRIDE)
+    while found > 1 and bend_between(scaled, math.ceil(way / (found * mesh_width))) > part:
+        found //= 2
+    return found
 
 
 def number_of_steps(scaled: ScaledProblem, seconds: float) -> int:

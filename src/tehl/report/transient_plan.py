@@ -15,7 +15,9 @@ from tehl.estimate.duration import (
     duration_of,
     misplaced,
     number_of_steps,
+    stride_on,
 )
+from tehl.estimate.nodes import PART_IN_STEP
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
 from tehl.report.roughness import RESOLVES
@@ -69,7 +71,8 @@ def transient_plan(
     if transient is None:
         return None
     (ny, nx), (dx, dy) = options.shape, mesh
-    step, duration = transient.stride * dx / units.speed, duration_of(scaled)
+    stride = stride_on(scaled, dx / units.half_width_x, PART_IN_STEP * options.target)
+    step, duration = stride * dx / units.speed, duration_of(scaled)
     steps = number_of_steps(scaled, step)
     # CPU time of a step, and per node of the finest full grid, on one core of a usual machine [s]
     start, cost = 0.014, 1.0e-5 if problem.is_coupled else 1.7e-6
@@ -79,7 +82,7 @@ def transient_plan(
     waves = (one.roughness.shortest_wavelengths for one in problem.surfaces)
     first, second = (min(wave[0] / dx, wave[1] / dy) for wave in waves)
     speeds = (problem.motion.speed_1, problem.motion.speed_2)
-    shift = (transient.stride * speeds[0] / units.speed, transient.stride * speeds[1] / units.speed)
+    shift = (stride * speeds[0] / units.speed, stride * speeds[1] / units.speed)
     seconds, limit = (start + cost * nx * ny) * steps, options.max_time
     ends = (
         [f"numerics.max_time = {limit:g} s: the run takes about {seconds:.2g} s and may end early"]

@@ -45,8 +45,8 @@ FLOOR = 0.02
 """Least film in the conductance, over the expected central film: a heated roller with M = 68 has
 0.017 of its isothermal film at its ends, and 0.05 of its own."""
 AT_REST = 0.05
-"""The same over that where the speed varies in time: a line (M = 10, L = 16) that stops has 0.022 of
-its film at its edges 4 ms later, and ever less."""
+"""The same over that where the speed varies in time: a line (M = 10, L = 16) that stops has 0.022
+of its film at its edges 4 ms later, and ever less."""
 
 
 class Balances(NamedTuple):

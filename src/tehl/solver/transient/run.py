@@ -14,9 +14,9 @@ from tehl.contact.moment import courses_of
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.transient import Transient
-from tehl.estimate.duration import misplaced, number_of_steps
+from tehl.estimate.duration import misplaced, number_of_steps, stride_on
 from tehl.estimate.grid import Grid
-from tehl.estimate.nodes import finest_grid, nodes_of_courses, planned
+from tehl.estimate.nodes import PART_IN_STEP, finest_grid, nodes_of_courses, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
 from tehl.kernels.warmup import warm_up
@@ -123,7 +123,7 @@ class Run:
         stated = "max_time" in options.model_fields_set
         own = end_of_time(options) if stated else math.inf
         self.clock = Clock(own if until is None else until)
-        self.problem, self.transient = problem, transient
+        self.problem, self.transient, self.error = problem, transient, options.target
         self.scaled = scaled = ScaledProblem.of(problem)
         smooth = transient.start == "smooth"
         self._pose(finest_grid(scaled, planned(scaled, options)), smooth=smooth)  # fails early
@@ -131,7 +131,7 @@ class Run:
         self.scaled = attempt.run.hierarchy.scaled  # it knows the flooded film
         self._pose(attempt.run.finest.grid, smooth=smooth)
         settings: Sequence[Relaxation] = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
-        self.stepper = Stepper(attempt.run, transient, settings, self.schedule)
+        self.stepper = Stepper(attempt.run, self.transient, settings, self.schedule)
         self.record = Record()
         self._note(0, self.heights.at(0.0, self.schedule.places(0)), None)
 
@@ -140,7 +140,9 @@ class Run:
 
         ``smooth`` is whether the run starts without roughness.
         """
-        transient, scales = self.transient, self.scaled.scales
+        stride = stride_on(self.scaled, grid.dx, PART_IN_STEP * self.error)
+        self.transient = transient = self.transient.model_copy(update={"stride": stride})
+        scales = self.scaled.scales
         check_ends(self.scaled, grid)
         self.heights = MovingHeights(self.scaled, grid, transient.entrance if smooth else None)
         self.seconds = transient.stride * grid.dx * scales.half_width_x / scales.speed
@@ -429,8 +431,7 @@ class Run:
 
     def result(self, status: Status) -> TransientSolution:
         """Return the result; an open minimum of the steady film is reported in its status."""
-        steady = self.start.status
-        if status.converged and steady.is_vague:
+        if status.converged and (steady := self.start.status).is_vague:
             status = replace(status, message=f"At time zero: {steady.message}", hint=steady.hint)
         full, scales = (self.level.grid.ny, self.level.grid.nx), self.scaled.scales
         return TransientSolution(
