@@ -23,7 +23,7 @@ MOST_FOR_COURSES = 256
 """Most time steps that a grid is refined for, so that they follow what changes in time."""
 PERIODS = 2.5
 """Wavelengths of a harmonic surface that pass the centre, so that a fit over time has two."""
-STEP_OF_SMOOTH, LONGEST_STRIDE = 0.02, 8
+STEP_OF_SMOOTH, LONGEST_STRIDE = 0.02, 4
 """Way of the mean motion in a time step between smooth surfaces [a_x], the mesh width of 257 nodes
 on the usual domain, and the mesh widths that it is at the most: finer grids resolve a thin film,
 whose changes are as slow as on others."""
