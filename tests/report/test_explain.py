@@ -13,8 +13,10 @@ import pytest
 from tehl import InputError, solve
 from tehl.api.problem import case_from_tables
 from tehl.contact.options import Options
+from tehl.estimate.duration import extremes_of
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.nodes import finest_grid
+from tehl.estimate.scaling import ScaledProblem
 from tehl.io.templates import template_text
 from tehl.report.explain import Explanation, as_summary, as_text, explain
 from tehl.report.readable import length
@@ -405,6 +407,7 @@ def test_the_plan_of_a_line_has_one_row():
         case
     )
     assert case.time.seconds < 2e-2 * case.time.steps  # much less than on 257 rows
+    assert case.memory > 96 * 257 * case.time.steps  # the profiles of all steps are kept
 
 
 def test_a_load_that_changes_within_few_steps_is_reported():
@@ -434,3 +437,29 @@ def test_the_profile_of_a_roller_and_the_load_of_its_slices_are_shown():
     tilted = as_summary(explain(*case_from_tables(case)))["profile"]
     assert tilted["largest_slice_over_hertz"] > 1.3
     assert tilted["loaded_part"] < 0.8
+
+
+def test_sliding_and_pressure_of_a_run_count_by_their_largest_values():
+    """At its pitch point a pair of gears rolls; a small radius presses harder."""
+    tables = {"contact": {"type": "line", "radius": "10 mm", "load_per_length": "300 N/mm"}}
+    tables["contact"]["entrainment_speed"] = "2 m/s"
+    course = {"duration": "1 ms", "slide_roll_ratio": [["0 ms", 0.8], ["1 ms", -0.8]]}
+    assert not any("Newtonian film slides" in one for one in line_explained(tables).questions)
+    sliding = line_explained(tables | {"transient": course})
+    assert any("a Newtonian film slides at" in one for one in sliding.questions)
+    course["radius"] = [["0 ms", 0.03], ["1 ms", 1.0]]
+    pressed = line_explained(tables | {"transient": course})
+    assert any("Hertz pressure = 6" in one for one in pressed.questions)
+
+
+def line_explained(tables: dict[str, Any]) -> Explanation:
+    """Return the explanation of a line contact of steel."""
+    steel = {"material": "steel"}
+    bodies = {"surface_1": steel, "surface_2": steel, "lubricant": {"name": "mineral-oil"}}
+    return explain(*case_from_tables(bodies | tables))
+
+
+def test_the_hertz_pressure_of_a_circle_grows_with_load_and_curvature():
+    course = {"duration": "1 ms", "load": [["0 ms", 1.0], ["1 ms", 8.0]]}
+    ball = ScaledProblem.of(case_from_tables(ball_tables(transient=course))[0])
+    assert extremes_of(ball)[1] == pytest.approx(2.0 * ball.problem.hertz.pressure)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.base.errors import InputError
-from tehl.contact.moment import courses_of
+from tehl.contact.moment import courses_of, moments_of
 from tehl.contact.transient import Transient
 from tehl.estimate.scaling import ScaledProblem, Scales
 from tehl.roughness.map import Map
@@ -193,6 +193,26 @@ def whole_passing(scaled: ScaledProblem) -> float:
     )
     times = (far / min(abs(part.speed), units.speed) for far, part in distances)
     return max(times, default=0.0)
+
+
+def extremes_of(scaled: ScaledProblem) -> tuple[float, float]:
+    """Return the largest sliding speed over that of entrainment [-] and Hertz pressure [Pa].
+
+    Of all moments of a run, whose pressure follows load and curvature: as the root of both for
+    lines, for points as ``load^(1/3) (1/R_x + 1/R_y)^(2/3)``, exact for circles.
+    """
+    problem, still = scaled.problem, scaled.problem.sliding_speed / scaled.scales.speed
+    pressure = problem.hertz.pressure
+    if not courses_of(problem):
+        return still, pressure
+    moments = moments_of(problem, duration_of(scaled))
+    slides = max(math.hypot(one.sliding, one.across) for one in moments)
+    if problem.contact.has_lines:
+        return slides, pressure * max(math.sqrt(one.load * one.curvature) for one in moments)
+    part = problem.radius_y / (problem.radius_x + problem.radius_y)
+    curved = [1.0 + part * (one.curvature - 1.0) for one in moments]
+    rises = (one.load ** (1 / 3) * c ** (2 / 3) for one, c in zip(moments, curved, strict=True))
+    return slides, pressure * max(rises)
 
 
 def bend_between(scaled: ScaledProblem, steps: int) -> float:

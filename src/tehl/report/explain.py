@@ -158,7 +158,8 @@ class Explanation:
     @property
     def memory(self) -> float:
         """Estimated peak memory of a solve [byte]."""
-        return needed_memory(self.options, self.scaled.problem)
+        kept = self.time.memory if self.time else 0.0
+        return needed_memory(self.options, self.scaled.problem) + kept
 
     @property
     def seconds_range(self) -> tuple[float, float]:

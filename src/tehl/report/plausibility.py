@@ -13,6 +13,7 @@ from tehl.contact.roller import ENDS
 from tehl.contact.summits import GreenwoodTripp
 from tehl.contact.tables import Surface
 from tehl.estimate.domain import domain_error, domain_of, proposed_domain
+from tehl.estimate.duration import extremes_of
 from tehl.estimate.film_formulas import (
     LARGEST_FILM_PART,
     film_over_radius,
@@ -131,7 +132,7 @@ def typical_ranges(scaled: ScaledProblem) -> Iterator[Typical]:
         ("a_y / a_x", groups.ellipticity, 0.05, 60, "", "check the order of the radii", _WIDE),
     )
     for row in (
-        ("Hertz pressure", hertz.pressure / 1e9, 0.05, 4, "GPa", soft, _YIELD),
+        ("Hertz pressure", extremes_of(scaled)[1] / 1e9, 0.05, 4, "GPa", soft, _YIELD),
         ("reduced radius_x", problem.radius_x, 1e-4, 5, "m", _UNIT),
         ("entrainment speed", problem.entrainment_speed, 1e-4, 100, "m/s", _UNIT),
         ("a_x / R_x", slender, 0, 0.2, "", "the solids are not half-spaces on this scale"),
@@ -273,7 +274,7 @@ def _about_film(scaled: ScaledProblem) -> Iterator[str]:
 
 def _about_sliding(scaled: ScaledProblem, heat: ExpectedHeat | None) -> Iterator[str]:
     problem, shear = scaled.problem, scaled.problem.lubricant.shear
-    slip, pressure = problem.sliding_speed / problem.entrainment_speed, problem.hertz.pressure
+    slip, pressure = extremes_of(scaled)
     if abs(problem.motion.sliding_ratio[0]) > 2:
         yield (
             f"slide_roll_ratio = {problem.slide_roll_ratio:g}: the surfaces move in opposite "
