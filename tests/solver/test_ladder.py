@@ -234,14 +234,19 @@ def test_a_grid_is_not_too_coarse_where_cycles_lead_away_or_a_coarser_one_has_a_
     assert FilmSolver.leads_away(run) is leads
 
 
-@pytest.mark.parametrize(("minimum", "found"), [(1e-3, ((257, 65), 0.01)), (-1e-3, None)])
-def test_a_grid_whose_film_is_not_positive_has_no_error_to_fall_back_on(
-    monkeypatch: pytest.MonkeyPatch, minimum: float, found: object
+@pytest.mark.parametrize(
+    ("minimum", "missing", "found"),
+    [(1e-3, 1e-4, ((257, 65), 0.01)), (-1e-3, 1e-4, None), (1e-3, -0.068, None)],
+)
+def test_a_grid_without_a_positive_film_under_its_load_has_no_error_to_fall_back_on(
+    monkeypatch: pytest.MonkeyPatch, minimum: float, missing: float, found: object
 ) -> None:
-    """Of a tilted roller (M = 15) the hint named an error at which its film is negative too."""
+    """The hint named errors of films that are negative (a tilted roller, M = 15) or carry another
+    load (a hypoid gear, -6.8 %)."""
     level = Mock(share=Mock(bounds_film=False), equations=Mock(floor=1e-5))
     level.grid.points = (257, 65)
-    traces = [Mock(reports=[Mock()], minimum=Mock(values=[minimum])) for _ in range(4)]
+    report = Mock(load_error=missing)
+    traces = [Mock(reports=[report], minimum=Mock(values=[minimum])) for _ in range(4)]
     traces.append(Mock(reports=[], minimum=Mock(values=[])))  # it diverged before its first cycle
     errors = Mock(return_value=Mock(film=Mock(return_value=0.01)))
     monkeypatch.setattr("tehl.solver.cycle.film_solver.estimated_errors", errors)

@@ -26,6 +26,7 @@ from tehl.solver.cycle.methods import MOST_CYCLES, solve_coarsest
 from tehl.solver.cycle.start import from_coarser, from_dry_pressure, from_guess, pose_problem
 from tehl.solver.judging.convergence import (
     LARGEST_CYCLE_CHANGE,
+    LARGEST_LOAD_ERROR,
     DivergedError,
     GridTrace,
     converged,
@@ -262,6 +263,8 @@ class FilmSolver(GridIteration):
             trace, level = self.traces[number], self.levels[number]
             if not trace.reports or not self._is_acceptable(trace):
                 continue
+            if abs(trace.reports[-1].load_error) > LARGEST_LOAD_ERROR:
+                continue  # it may be a start, but is no film under this load
             if not level.share.bounds_film and trace.minimum.values[-1] <= level.equations.floor:
                 continue
             known = self.traces[: number + 1]
