@@ -118,10 +118,9 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
 def stress_limit(lubricant: Lubricant) -> float:
     """Return the dimensionless stress at which ln F, a straight line at the end, is largest."""
     shear = lubricant.shear
-    end = np.array(shear.knee or min(shear.largest_stress, LARGEST_STRESS))
-    last, step = float(shear.log_thinning(end)), 1e-6
-    slope = (float(shear.log_thinning(end + step)) - last) / step
-    return float(end) + (LARGEST_LOG - last) / max(slope, 1e-9)
+    end, step = shear.knee or min(shear.largest_stress, LARGEST_STRESS), 1e-6
+    last, beyond = map(float, shear.log_thinning(np.array([end, end + step])))
+    return end + (LARGEST_LOG - last) / max((beyond - last) / step, 1e-9)
 
 
 def newtonian_limit(lubricant: Lubricant) -> float:
