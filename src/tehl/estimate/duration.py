@@ -260,7 +260,7 @@ def steps_of_courses(scaled: ScaledProblem, part: float) -> int:
 def stride_on(scaled: ScaledProblem, mesh_width: float, part: float) -> int:
     """Return the mesh widths that the mean motion passes per time step on a grid.
 
-    The stated ``stride``; left out, between smooth surfaces as many as `STEP_OF_SMOOTH` has, but no
+    The stated ``stride``; left out, between smooth surfaces what `STEP_OF_SMOOTH` has, but no
     more than follow what changes in time.
 
     Parameters

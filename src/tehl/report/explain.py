@@ -42,7 +42,7 @@ from tehl.report.plausibility import questions
 from tehl.report.readable import UNTITLED
 from tehl.report.rendering import render
 from tehl.report.roughness import CONVERGES, RESOLVES, Asperities, asperities
-from tehl.report.transient_plan import TransientPlan, transient_plan
+from tehl.report.transient_plan import BYTES_IN_STEP, TransientPlan, transient_plan
 
 if TYPE_CHECKING:
     from tehl.estimate import stiffness
@@ -158,7 +158,7 @@ class Explanation:
     @property
     def memory(self) -> float:
         """Estimated peak memory of a solve [byte]."""
-        kept = self.time.memory if self.time else 0.0
+        kept = BYTES_IN_STEP * self.options.shape[1] * self.time.steps if self.time else 0.0
         return needed_memory(self.options, self.scaled.problem) + kept
 
     @property

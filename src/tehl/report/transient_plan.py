@@ -43,8 +43,6 @@ class TransientPlan:
     """Number of time steps."""
     seconds: float
     """Estimated CPU time [s]."""
-    memory: float
-    """Of what is kept of the steps [byte]."""
     distance: float
     """Distance that the mean of both surfaces moves on [a_x]."""
     speeds_m_s: tuple[float, float]
@@ -101,7 +99,6 @@ def transient_plan(
         step_s=step,
         steps=steps,
         seconds=seconds,
-        memory=float(BYTES_IN_STEP * nx * steps),
         distance=_distance(scaled, step, steps),
         speeds_m_s=speeds,
         points_per_wave=tuple(one if math.isfinite(one) else None for one in (first, second)),

@@ -264,7 +264,7 @@ class FilmSolver(GridIteration):
             if not trace.reports or not self._is_acceptable(trace):
                 continue
             if abs(trace.reports[-1].load_error) > LARGEST_LOAD_ERROR:
-                continue  # it may be a start, but is no film under this load
+                continue  # a start perhaps, but not of this load
             if not level.share.bounds_film and trace.minimum.values[-1] <= level.equations.floor:
                 continue
             known = self.traces[: number + 1]
