@@ -181,7 +181,7 @@ def test_a_wedge_of_third_order_stays_so_while_the_speed_varies(shape):
     """On 65 nodes it errs by less than one of second order on twice as many."""
     case, fewest, most = SHAPES[shape]
     unit = scales(case).half_width_x / scales(case).speed
-    course = {"duration": unit, "entrainment_speed": f"1 + 0.5*sin(t/({unit!r} s))"}
+    course = {"duration": unit, "entrainment_speed": f"1 + 0.5*sin(t/({unit!r} s))", "stride": 1}
     varying = with_tables(case, transient=course | {"frames": 0})
     assert planned(ScaledProblem.of(varying), Options()).order == 3
     moments, films, more = np.linspace(0.0, 1.0, 9), {}, 2 * fewest - 1

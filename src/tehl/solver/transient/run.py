@@ -123,24 +123,25 @@ class Run:
         stated = "max_time" in options.model_fields_set
         own = end_of_time(options) if stated else math.inf
         self.clock = Clock(own if until is None else until)
-        self.problem, self.transient, self.error = problem, transient, options.target
+        self.problem, self.transient = problem, transient
         self.scaled = scaled = ScaledProblem.of(problem)
         smooth = transient.start == "smooth"
-        self._pose(finest_grid(scaled, planned(scaled, options)), smooth=smooth)  # fails early
+        pose = partial(self._pose, smooth=smooth, part=PART_IN_STEP * options.target)
+        pose(finest_grid(scaled, planned(scaled, options)))  # fails early
         attempt, self.start = self._steady_start(options, monitor)
         self.scaled = attempt.run.hierarchy.scaled  # it knows the flooded film
-        self._pose(attempt.run.finest.grid, smooth=smooth)
+        pose(attempt.run.finest.grid)
         settings: Sequence[Relaxation] = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
         self.stepper = Stepper(attempt.run, self.transient, settings, self.schedule)
         self.record = Record()
         self._note(0, self.heights.at(0.0, self.schedule.places(0)), None)
 
-    def _pose(self, grid: Grid, *, smooth: bool) -> None:
+    def _pose(self, grid: Grid, *, smooth: bool, part: float) -> None:
         """Set heights and time steps on ``grid``, and check them.
 
-        ``smooth`` is whether the run starts without roughness.
+        ``smooth``: whether the run starts without roughness; ``part``: as in `stride_on`.
         """
-        stride = stride_on(self.scaled, grid.dx, PART_IN_STEP * self.error)
+        stride = stride_on(self.scaled, grid.dx, part)
         self.transient = transient = self.transient.model_copy(update={"stride": stride})
         scales = self.scaled.scales
         check_ends(self.scaled, grid)
