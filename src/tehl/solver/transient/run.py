@@ -137,21 +137,18 @@ class Run:
         self._note(0, self.heights.at(0.0, self.schedule.places(0)), None)
 
     def _pose(self, grid: Grid, *, smooth: bool, part: float) -> None:
-        """Set heights and time steps on ``grid``, and check them.
-
-        ``smooth``: whether the run starts without roughness; ``part``: as in `stride_on`.
-        """
+        """Set heights, smooth or not at first, and time steps by `stride_on`; check them."""
         stride = stride_on(self.scaled, grid.dx, part)
         self.transient = transient = self.transient.model_copy(update={"stride": stride})
-        scales = self.scaled.scales
         check_ends(self.scaled, grid)
         self.heights = MovingHeights(self.scaled, grid, transient.entrance if smooth else None)
-        self.seconds = transient.stride * grid.dx * scales.half_width_x / scales.speed
+        units = self.scaled.scales
+        self.seconds = stride * grid.dx * units.half_width_x / units.speed
         self.steps = number_of_steps(self.scaled, self.seconds)
-        self.schedule = schedule_of(self.scaled, transient.stride * grid.dx, self.steps)
+        self.schedule = schedule_of(self.scaled, stride * grid.dx, self.steps)
         check_stride(transient, grid, self.schedule)
         check_size(self.scaled, grid, self.schedule)
-        check_waves(self.heights, grid, self.schedule, transient.stride)
+        check_waves(self.heights, grid, self.schedule, stride)
         if (fault := misplaced(self.scaled, self.steps * self.seconds)) is not None:
             raise InputError(fault)
         check_peaks(courses_of(self.problem), self.seconds)
