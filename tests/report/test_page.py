@@ -11,6 +11,7 @@ import pytest
 
 from tehl.api.problem import ContactProblem
 from tehl.contact.materials import material
+from tehl.contact.transient import Transient
 from tehl.estimate.inlet_heating import InletFactor
 from tehl.plots import pictures_of
 from tehl.post.micro_film import roughness_effect
@@ -242,6 +243,8 @@ def test_inputs_carry_their_units(result):
     assert "contact.moes_load" not in rows
     assert rows["lubricant.viscosity.alpha"] == "22 1/GPa"
     assert rows["surface_1.material.young_modulus"] == "206 GPa"
+    transient = result.problem.model_copy(update={"transient": Transient(duration=2e-3)})
+    assert dict(input_rows(transient))["transient.frames"] == "25"
 
 
 def _with(result, **surface):

@@ -539,3 +539,15 @@ def test_the_grids_that_certify_a_run_have_its_stride(monkeypatch):
     assert found.status.converged
     assert strides == [1, 2, 2, 2]  # the first is not stated
     assert found.time_step == pytest.approx(2.0 * 4.5 / 512.0 * UNIT)
+
+
+def test_a_heated_run_whose_surface_stands_first_is_told_from_when_on_both_move():
+    """The base circle of a cam: its follower stands still there."""
+    course = {"duration": 4.0 * UNIT, "entrainment_speed": [[0.0, 0.5], [4.0 * UNIT, 2.5]]}
+    course["sliding_speed"] = [[0.0, 2.0], [4.0 * UNIT, 2.0]]
+    oil = {"name": "mineral-oil", "shear": {"law": "eyring", "stress": "5 MPa"}}
+    case = line(20, 10, transient=course, thermal={}, lubricant=oil)
+    with pytest.raises(InputError, match=r"along x, as they do after (.+) s") as caught:
+        solve_transient(case, Options(points=65))
+    since = float(str(caught.value).split()[-2])
+    assert since == pytest.approx(UNIT, rel=0.1)

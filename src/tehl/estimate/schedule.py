@@ -114,9 +114,12 @@ def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
             f'steady film, so its first speed must be positive, such as "{slow:.2g} m/s"'
         )
     if problem.thermal is not None and not min(moments[0].speeds) > 0.0:
+        both = (t for t, one in zip(times, moments, strict=True) if min(one.speeds) > 0.0)
+        since = next(both, None)
         raise InputError(
             "transient: a surface stands still or moves against x at 0 s, too slow for the steady "
             "heat of its start; begin where both surfaces move along x"
+            + ("" if since is None else f", as they do after {since:.3g} s")
         )
     stated = moment_at(problem.model_copy(update={"transient": None}), 0.0)
     constant = all((one.speed, one.sliding) == (stated.speed, stated.sliding) for one in moments)

@@ -70,7 +70,9 @@ def input_rows(model: BaseModel, prefix: str = "") -> Iterator[tuple[str, str]]:
 
 
 def _with_unit(value: Any, unit: str) -> str:
-    """Return a value with its unit, with an SI prefix where that is shorter."""
+    """Return a value with its unit, with an SI prefix where that is shorter; counts have none."""
+    if isinstance(value, int):
+        return _shown(value)
     if isinstance(value, float):
         if math.isinf(value):
             return _shown(value)

@@ -95,10 +95,11 @@ def certify_transient(
     if not finest.status.converged:
         return finest
     assert problem.transient is not None
-    grid, scales = finest.start.scaled, finest.start.scales
-    mesh_width = float(grid.x[1] - grid.x[0]) * scales.half_width_x
-    stride = round(finest.time_step * scales.speed / mesh_width)
-    changes = {"frames": 0, "stride": stride}  # only the finest has fields
+    changes = {"frames": 0}  # only the finest has fields
+    if "stride" not in problem.transient.model_fields_set:
+        grid, scales = finest.start.scaled, finest.start.scales
+        mesh_width = float(grid.x[1] - grid.x[0]) * scales.half_width_x
+        changes["stride"] = round(finest.time_step * scales.speed / mesh_width)
     no_frames = problem.transient.model_copy(update=changes)
     others = problem.model_copy(update={"transient": no_frames})
     solve = partial(_companion, others, monitor, until)
