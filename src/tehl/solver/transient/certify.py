@@ -13,6 +13,7 @@ from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.options import Options, can_be_halved, check_certifiable
 from tehl.contact.problem import ContactProblem
+from tehl.contact.transient import Transient
 from tehl.estimate.settled import keeping_order, settled
 from tehl.result.bars import Estimate, shows_second_order
 from tehl.result.solution import ConvergenceError
@@ -95,13 +96,7 @@ def certify_transient(
     if not finest.status.converged:
         return finest
     assert problem.transient is not None
-    changes = {"frames": 0}  # only the finest has fields
-    if "stride" not in problem.transient.model_fields_set:
-        grid, scales = finest.start.scaled, finest.start.scales
-        mesh_width = float(grid.x[1] - grid.x[0]) * scales.half_width_x
-        changes["stride"] = round(finest.time_step * scales.speed / mesh_width)
-    no_frames = problem.transient.model_copy(update=changes)
-    others = problem.model_copy(update={"transient": no_frames})
+    others = problem.model_copy(update={"transient": _without_frames(problem.transient, finest)})
     solve = partial(_companion, others, monitor, until)
     middle = solve(halved(options, 1), "half the intervals")
     if middle.result is None:
@@ -130,6 +125,16 @@ def _message(finest: TransientSolution, coarse: Other, middle: Other, wide: Othe
     last = f"{nodes_of(finest.start.grid_options)} {finest.status.outcome}"
     message = message_on([coarse.ending, middle.ending, last], wide.ending)
     return message if coarse.result is not None else f"{message} {WITHOUT_FIRST}"
+
+
+def _without_frames(transient: Transient, finest: TransientSolution) -> Transient:
+    """Return the table of the other runs: the stride of the finest one, which alone has fields."""
+    if "stride" in transient.model_fields_set:
+        return transient.model_copy(update={"frames": 0})
+    grid, scales = finest.start.scaled, finest.start.scales
+    mesh_width = float(grid.x[1] - grid.x[0]) * scales.half_width_x
+    stride = round(finest.time_step * scales.speed / mesh_width)
+    return transient.model_copy(update={"frames": 0, "stride": stride})
 
 
 def _companion(
