@@ -32,8 +32,6 @@ LARGEST_FITTED_LOG_VISCOSITY = 40.0
 """ln eta up to which the polynomials meet the tolerance."""
 SOLID = 300.0
 """ln eta above which the viscosity is cut off: the film is effectively solid."""
-
-
 LARGEST_STRESS, LARGEST_LOG = 1000.0, 340.0
 """Dimensionless stress at which a table of ln F ends at the latest, and ln F up to which stresses
 of oil that yields as a whole may grow: above `SOLID`, so that it takes any sliding."""

@@ -25,8 +25,6 @@ from tehl.report.roughness import RESOLVES
 LARGEST_BEND = 0.01
 """Part of its largest value by which what changes in time may be off a straight line within a step:
 half of the usual error of a film."""
-
-
 BYTES_IN_STEP = 96
 """Memory of a step per node along x: pressure, film and two heights on the line y = 0, and copies
 of them that are written (3585 nodes: 1.2 GB after 3,800 steps)."""

@@ -39,7 +39,8 @@ both over that rise, below which the sweep of the next cycle is skipped."""
 LEAST_SWEEPS = 2
 """Sweeps on a grid before one may be skipped."""
 FIRST_STRESS_STEPS, STRESS_STEPS = 40, 12
-"""Newton steps for the shear stress in the first sweeps and later."""
+"""Most Newton steps for the shear stress in the first sweeps and later: with 3 a heated traction
+drive (M = 51, L = 22.6) fails, and with 12 it takes 6 s."""
 RAMP = 24
 """Sweeps over which the sliding speed is raised from zero in `Strategy.slide_in_steps`."""
 UNFINISHED = 100.0
