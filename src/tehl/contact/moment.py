@@ -1,12 +1,16 @@
 """Load, motion and radius of a contact at one moment, over those that it states."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeVar
 
 from tehl.base.units import Force, ForcePerLength, Length, Number, quantity
 from tehl.contact.bodies import direction
 from tehl.contact.course import SIGNED_SPEED, Course, Stated, course_of
 from tehl.contact.point_contact import PointContact
+
+Problem = TypeVar("Problem", bound=PointContact)
 
 SLIDING = {"slide_roll_ratio", "sliding_speed"}
 """Keys of the sliding."""
@@ -87,6 +91,34 @@ def moments_of(problem: PointContact, duration: float) -> list[Moment]:
     """
     at = timeline(problem)
     return [at(duration * n / SAMPLES) for n in range(SAMPLES + 1)]
+
+
+def frozen(problem: Problem, moment: Moment) -> Problem:
+    """Return the steady contact with load, motion and radius of one moment of a run.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The contact of the run.
+    moment : Moment
+        With a positive speed.
+    """
+    contact, radii = problem.contact, problem.radii_of_axes
+    has_lines = contact.has_lines
+    x = radii.x / moment.curvature
+    stated = {
+        "radius": x if has_lines else None,
+        "radius_x": None if has_lines else x,
+        "radius_y": None if has_lines else radii.y,
+        "load_per_length" if contact.is_line else "load": problem.load * moment.load,
+        "entrainment_speed": problem.entrainment_speed * moment.speed,
+        "slide_roll_ratio": math.hypot(moment.sliding, moment.across) / moment.speed,
+        "hertz_pressure": None,
+        "moes_load": None,
+        "moes_speed": None,
+    }
+    steady = {"contact": contact.model_copy(update=stated), "transient": None}
+    return problem.model_copy(update=steady)
 
 
 def slides_ever(problem: PointContact) -> bool:

@@ -7,28 +7,23 @@ from dataclasses import replace
 from tehl.contact.options import Domain, Options
 from tehl.contact.shape import LINE
 from tehl.estimate.domain import domain_of, far_field_error
-from tehl.estimate.duration import duration_of, steps_of_courses
 from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.grid import END_CELL, SHORTEST_CELL, Grid, can_mirror, crowding
-from tehl.estimate.line import LINE_ROUGH_NODES, line_bar, line_points
+from tehl.estimate.in_time import films_of_run, nodes_of_courses
+from tehl.estimate.line import LINE_ROUGH_NODES, line_bar, line_points, roller_points
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.settled import crowds_at_ends, raises_order, settled
 from tehl.estimate.starvation import is_starved, supplied_film, supply_ratio
 from tehl.estimate.summits import shared_load
 from tehl.estimate.third_order import third_order_bar
 
-PART_IN_STEP, LEAST_LAMBDA = 0.25, 0.3
-"""Part of the error to reach by which a load, a speed or a radius may be off a straight line within
-a time step; and film over sigma below which asperities make bars no smaller."""
+LEAST_LAMBDA = 0.3
+"""Film over sigma below which asperities make bars no smaller."""
 FAMILIES = tuple(2**k * n + 1 for k in range(2, 9) for n in (16, 20, 24, 28))
 """Nodes from which `expected_points` chooses; at least three grids."""
-ROLLER_NODES, LEAST_ROWS = tuple(one for one in FAMILIES if one > 256), 128
-"""Numbers of nodes along a roller's entrainment, and least intervals along it: its ends."""
 FAVOURED = tuple(nodes for nodes in FAMILIES if nodes > 80 and (nodes - 1) % 7)
 """Those of a wedge of third order: their coarsest grids cost least."""
-SECOND_ORDER_BAR = 40.0
-"""Bar of the middle of a roller, second order over third: 11 % on 257 nodes (crowned, M = 60)."""
 BAR, BAR_COUPLED, EXPECTED_BAR_MARGIN, MARGIN_OF_MIDDLE = 0.24, 1.16, 1.25, 1.1
 """Factors of `expected_bar`: of all contacts, of heated and thinning ones, the margin with which
 four of five contacts reach the error on the expected grid, and that of the middle of smooth films
@@ -158,31 +153,6 @@ def expected_points(  # noqa: PLR0913 (one formula)
     return next((nodes for nodes, bar in bars if nodes > least and bar <= left), FAMILIES[-1])
 
 
-def _points_of_roller(scaled: ScaledProblem, domain: Domain, options: Options) -> tuple[int, int]:
-    """Return the nodes along a roller's entrainment for an error of its middle, and the lines."""
-    groups, factor = scaled.entering, 1.0 if options.order > 2 else SECOND_ORDER_BAR
-    least, lines = (min(one, ROUGH_NODES) for one in _nodes_of_waves(scaled, domain))
-    bars = ((nodes, factor * line_bar(groups, domain, nodes)) for nodes in ROLLER_NODES)
-    enough = (n for n, bar in bars if n > least and bar <= options.target)
-    nodes = next(enough, ROLLER_NODES[-1])
-    if groups.shape.goes_on:
-        return nodes, _lines_of_piece(nodes, lines)
-    return nodes, _lines_of_roller(nodes, lines)
-
-
-def _lines_of_piece(nodes: int, least: float) -> int:
-    """Return the lines of a piece that goes on: the fewest beside its nodes, or for its waves."""
-    found = ((nodes - 1) * part // 4 + 1 for part in (1, 2, 4, 8))
-    return next((lines for lines in found if lines > least), 4 * nodes - 3)
-
-
-def _lines_of_roller(nodes: int, least: float) -> int:
-    """Return the lines of a roller with ends: half the nodes, or more for its waves."""
-    fewest = max((nodes - 1) // 2, LEAST_ROWS)
-    found = (times * fewest + 1 for times in (1, 2, 4))
-    return next((lines for lines in found if lines > least), 8 * fewest + 1)
-
-
 def _left_to_the_mesh(groups: Groups, domain: Domain, error: float) -> float:
     """Return the error bar of the film that the edges of the domain leave to the mesh."""
     return max(error - far_field_error(groups, domain), 0.5 * error) / EXPECTED_BAR_MARGIN
@@ -195,26 +165,6 @@ def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> tuple[float, float
     along = (domain.x[1] - domain.x[0]) * scales.half_width_x / along
     across = (domain.y[1] - domain.y[0]) * scales.half_width_y / across
     return WAVE_NODES * along, WAVE_NODES * across
-
-
-def nodes_of_courses(scaled: ScaledProblem, domain: Domain, error: float) -> float:
-    """Return the nodes along x with which time steps follow what changes in a run; 0 if nothing.
-
-    A step is that in which the mean motion moves by ``stride`` mesh widths.
-
-    Parameters
-    ----------
-    scaled, domain : ScaledProblem, Domain
-        The contact, and its edges [a_x].
-    error : float
-        To reach, of which a step may miss `PART_IN_STEP` of a load, a speed or a radius [-].
-    """
-    transient, scales = scaled.problem.transient, scaled.scales
-    steps = steps_of_courses(scaled, PART_IN_STEP * error)
-    if transient is None or steps == 0:
-        return 0.0
-    way = duration_of(scaled) * scales.speed / scales.half_width_x
-    return steps * transient.stride * (domain.x[1] - domain.x[0]) / way
 
 
 def _points_of_waves(
@@ -255,11 +205,46 @@ def planned(scaled: ScaledProblem, options: Options, *, of_central: bool = False
     options = settled(scaled.problem, options)
     if options.points != "auto":
         return options
-    domain, kind = domain_of(scaled, options), scaled.problem.contact
+    domain = domain_of(scaled, options)
     if raises_order(scaled.problem, options):
         options = options.model_copy(update={"wedge_order": 3})
+    steps = nodes_of_courses(scaled, domain, options.target)
+    films = films_of_run(scaled, domain)
+    return options.on_points(
+        *max(_points_of(one, own, options, steps, of_central=of_central) for one, own in films)
+    )
+
+
+def least_in_time(scaled: ScaledProblem, options: Options) -> float:
+    """Return the fewest nodes along x on which a run may go on from its steady film.
+
+    Those for its courses, and for films that need more than the first one, whose error is known.
+
+    Parameters
+    ----------
+    scaled, options : ScaledProblem, Options
+        As in `planned`; stated ``points`` do not count.
+    """
+    options, domain = settled(scaled.problem, options), domain_of(scaled, options)
+    steps = nodes_of_courses(scaled, domain, options.target)
+    films = films_of_run(scaled, domain)
+    start, *later = (_points_of(one, own, options, 0.0)[0] for one, own in films)
+    return max([steps, *(nodes for nodes in later if nodes > start)])
+
+
+def _points_of(
+    scaled: ScaledProblem,
+    domain: Domain,
+    options: Options,
+    steps: float,
+    *,
+    of_central: bool = False,
+) -> tuple[int, int]:
+    """Return the nodes (nx, ny) of a steady contact, with at least ``steps`` along x."""
+    kind = scaled.problem.contact
     if kind.has_lines and not kind.is_line:
-        return options.on_points(*_points_of_roller(scaled, domain, options))
+        least, lines = (min(one, ROUGH_NODES) for one in _nodes_of_waves(scaled, domain))
+        return roller_points(scaled.entering, domain, options, least, lines)
 
     def enough(least: float) -> tuple[int, int]:
         if options.order > 2 and not kind.is_line:
@@ -276,11 +261,10 @@ def planned(scaled: ScaledProblem, options: Options, *, of_central: bool = False
         )
         return nodes, nodes
 
-    steps = nodes_of_courses(scaled, domain, options.target)
     if kind.is_line:
         least = max(_nodes_of_waves(scaled, domain)[0], steps)
-        return options.on_points(enough(min(least, LINE_ROUGH_NODES))[0], 1)
-    return options.on_points(*_points_of_waves(scaled, domain, steps, enough))
+        return enough(min(least, LINE_ROUGH_NODES))[0], 1
+    return _points_of_waves(scaled, domain, steps, enough)
 
 
 def _third_order_points(

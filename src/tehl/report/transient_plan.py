@@ -17,7 +17,7 @@ from tehl.estimate.duration import (
     number_of_steps,
     stride_on,
 )
-from tehl.estimate.nodes import PART_IN_STEP
+from tehl.estimate.in_time import PART_IN_STEP
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
 from tehl.report.roughness import RESOLVES

@@ -16,7 +16,8 @@ from tehl.contact.problem import ContactProblem
 from tehl.contact.transient import Transient
 from tehl.estimate.duration import misplaced, number_of_steps, stride_on
 from tehl.estimate.grid import Grid
-from tehl.estimate.nodes import PART_IN_STEP, finest_grid, nodes_of_courses, planned
+from tehl.estimate.in_time import PART_IN_STEP
+from tehl.estimate.nodes import finest_grid, least_in_time, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
 from tehl.kernels.warmup import warm_up
@@ -191,8 +192,7 @@ class Run:
         fewer = run.goal.fewer_nodes(run.finest, errors) if result.status.converged else None
         if fewer is None:
             return attempt, result
-        domain = run.finest.grid.domain
-        if fewer[0] < nodes_of_courses(run.hierarchy.scaled, domain, tight.target):
+        if fewer[0] < least_in_time(run.hierarchy.scaled, tight):
             return attempt, result
         order = run.hierarchy.options.wedge_order
         stated = tight.on_points(*fewer).model_copy(update={"wedge_order": order})

@@ -1,0 +1,70 @@
+"""What a run in time asks of its grid: to follow what changes, and its film at each moment."""
+
+from tehl.contact.moment import SAMPLES, courses_of, frozen, moments_of
+from tehl.contact.options import Domain
+from tehl.estimate.duration import duration_of, steps_of_courses
+from tehl.estimate.scaling import ScaledProblem
+
+PART_IN_STEP = 0.25
+"""Part of the error to reach by which a load, a speed or a radius may be off a straight line within
+a time step."""
+EVERY, FAST = SAMPLES // 8, 0.5
+"""Of the sampled moments those for whose film nodes are planned; and the least speed of such a
+moment over the largest: that of slower motion depends on what was before."""
+
+Posed = tuple[ScaledProblem, Domain]
+"""A steady contact, and the domain of its run in its own half-widths."""
+
+
+def nodes_of_courses(scaled: ScaledProblem, domain: Domain, error: float) -> float:
+    """Return the nodes along x with which time steps follow what changes in a run; 0 if nothing.
+
+    A step is that in which the mean motion moves by ``stride`` mesh widths.
+
+    Parameters
+    ----------
+    scaled, domain : ScaledProblem, Domain
+        The contact, and its edges [a_x].
+    error : float
+        To reach, of which a step may miss `PART_IN_STEP` of a load, a speed or a radius [-].
+    """
+    transient, scales = scaled.problem.transient, scaled.scales
+    steps = steps_of_courses(scaled, PART_IN_STEP * error)
+    if transient is None or steps == 0:
+        return 0.0
+    way = duration_of(scaled) * scales.speed / scales.half_width_x
+    return steps * transient.stride * (domain.x[1] - domain.x[0]) / way
+
+
+def films_of_run(scaled: ScaledProblem, domain: Domain) -> list[Posed]:
+    """Return the steady contacts whose films the grid of a run resolves, that of its start first.
+
+    A smaller contact has fewer nodes, and the film of a slower one is thinner.
+
+    Parameters
+    ----------
+    scaled, domain : ScaledProblem, Domain
+        The contact, and the edges of its run. Without anything that changes they are all.
+    """
+    if not courses_of(scaled.problem):
+        return [(scaled, domain)]
+    moments = moments_of(scaled.problem, duration_of(scaled))
+    fast = FAST * max(one.speed for one in moments)
+    chosen = [one for one in moments[EVERY::EVERY] if one.speed > fast]
+    if moments[0].speed > 0.0:
+        chosen.insert(0, moments[0])
+    problems = (frozen(scaled.problem, one) for one in chosen)
+    return [_posed(scaled, ScaledProblem.of(one), domain) for one in problems]
+
+
+def _posed(stated: ScaledProblem, own: ScaledProblem, domain: Domain) -> Posed:
+    """Return a steady contact with a domain that is stated in other half-widths."""
+    across, along = (
+        getattr(stated.scales, key) / getattr(own.scales, key)
+        for key in ("half_width_y", "half_width_x")
+    )
+    x, y = (
+        (factor * edges[0], factor * edges[1])
+        for factor, edges in ((along, domain.x), (across, domain.y))
+    )
+    return own, Domain.model_construct(x=x, y=y)

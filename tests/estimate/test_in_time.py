@@ -1,0 +1,82 @@
+"""What a run in time asks of its grid."""
+
+import pytest
+
+from tehl.contact.moment import Moment, frozen, moment_at
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.contact.transient import Transient
+from tehl.estimate.domain import domain_of
+from tehl.estimate.in_time import films_of_run
+from tehl.estimate.line import line_points
+from tehl.estimate.nodes import least_in_time, planned
+from tehl.estimate.scaling import ScaledProblem
+from tests.reference import moes_contact
+
+AT = Moment(load=0.4, speed=0.7, sliding=0.2, curvature=4.0)
+
+
+def line() -> ContactProblem:
+    """Return a line of steel with Moes groups M = 50, L = 10."""
+    given = moes_contact(50.0, 10.0).model_dump(exclude_none=True)
+    contact = {"type": "line", "radius": 0.01, "moes_load": 50.0, "moes_speed": 10.0}
+    return ContactProblem.model_validate(given | {"contact": contact})
+
+
+def run(problem: ContactProblem, **courses: object) -> ScaledProblem:
+    """Return a run of one millisecond."""
+    transient = Transient.model_validate({"duration": "1 ms"} | courses)
+    return ScaledProblem.of(problem.model_copy(update={"transient": transient}))
+
+
+@pytest.mark.parametrize("problem", [moes_contact(50.0, 5.0), line()], ids=["circle", "line"])
+def test_a_frozen_contact_has_load_motion_and_radius_of_its_moment(problem: ContactProblem):
+    still, whole = frozen(problem, AT), ScaledProblem.of(problem)
+    own = ScaledProblem.of(still)
+    assert still.transient is None
+    assert still.load == pytest.approx(0.4 * problem.load)
+    assert still.radius_x == pytest.approx(0.25 * problem.radius_x)
+    assert still.motion.speed_1 - still.motion.speed_2 == pytest.approx(0.2 * whole.scales.speed)
+    # (2 U) goes with speed and curvature, W of a line with load and curvature, of a point with R^2
+    if problem.contact.is_line:
+        width, highest = whole.groups.shape.grown(AT.load, AT.curvature)
+        assert own.scales.half_width_x == pytest.approx(width * whole.scales.half_width_x)
+        assert own.scales.hertz_pressure == pytest.approx(highest * whole.scales.hertz_pressure)
+    power = whole.groups.shape.speed_power
+    load = AT.load * AT.curvature ** (1.0 if problem.contact.is_line else 2.0)
+    rolling = AT.speed * AT.curvature
+    assert own.groups.M == pytest.approx(whole.groups.M * load * rolling**-power)
+    assert own.groups.L == pytest.approx(whole.groups.L * rolling**0.25)
+
+
+def test_a_run_has_the_nodes_of_its_smallest_contact_on_its_own_domain():
+    """Near the base circle a pinion's contact is a quarter as wide as at the pitch point."""
+    options = Options(error=0.02)
+    grows = run(line(), load=[[0, 0.4], ["1 ms", 1.0]], radius=[[0, 0.2], ["1 ms", 1.0]])
+    domain = domain_of(grows, options)
+    films = films_of_run(grows, domain)
+    first, edges = films[0]
+    part = first.scales.half_width_x / grows.scales.half_width_x
+    assert part == pytest.approx((0.4 * 0.2) ** 0.5)
+    assert edges.x == pytest.approx([edge / part for edge in domain.x])
+    nodes = planned(grows, options).shape[1]
+    assert nodes == line_points(first.entering, edges, options.target, 0.0)
+    assert nodes >= 2 * planned(ScaledProblem.of(line()), options).shape[1] - 1
+    # the same way back: now its end decides, and the start may not have fewer nodes than that
+    shrinks = run(line(), load=[[0, 1.0], ["1 ms", 0.4]], radius=[[0, 1.0], ["1 ms", 0.2]])
+    assert planned(shrinks, options).shape[1] == nodes
+    assert least_in_time(shrinks, options) == nodes
+    assert least_in_time(grows, options) < nodes
+
+
+def test_films_of_slow_moments_do_not_count():
+    """They depend on what was before; without anything that changes all that counts is the film."""
+    turns = run(line(), entrainment_speed="cos(2*pi*t/(1 ms))")
+    moments = [moment_at(turns.problem, n * 1e-3 / 8) for n in range(9)]
+    fast = [one for one in moments if one.speed > 0.6]
+    films = films_of_run(turns, domain_of(turns, Options()))
+    assert len(films) == len(fast) < len(moments)
+    still = ScaledProblem.of(line())
+    assert films_of_run(still, domain_of(still, Options())) == [
+        (still, domain_of(still, Options()))
+    ]
