@@ -9,6 +9,7 @@ from tehl.contact.options import Options
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.kernels.energy.records import Surfaces
+from tehl.operators import energy
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import HeatedFilm
 from tehl.solver import steady
@@ -134,6 +135,24 @@ def test_the_heated_film_conserves_mass(slide, points):
     )
     assert missed < 0.03 * scale
     assert mistaken > 0.1 * scale
+
+
+def test_a_time_step_marches_back_only_where_a_surface_does(monkeypatch):
+    """In the inlet oil flows back by a station or two within a step."""
+    marched, march = [], energy.sweep
+
+    def noted(*given):
+        terms = given[0].terms
+        if terms.over_t > 0.0:
+            marched.append((min(terms.speed, terms.speed + terms.slide) < 0.0, given[-1][1]))
+        return march(*given)
+
+    monkeypatch.setattr(energy, "sweep", noted)
+    case = hot(0.5)
+    ratio = ((0.0, 0.5), (case.transient.duration, 3.0))
+    faster = case.transient.model_copy(update={"slide_roll_ratio": ratio})
+    assert solve_transient(case.model_copy(update={"transient": faster}), OPTIONS).status.converged
+    assert set(marched) == {(False, False), (True, True)}
 
 
 def test_a_film_at_rest_cools_by_conduction_as_the_exact_solution():

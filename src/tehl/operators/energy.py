@@ -248,7 +248,8 @@ class FilmState:
 
         Heat of oil that flows back, in the inlet and along a counter-moving surface, would move by
         one station per sweep. So a march against x comes first: always if thorough, else in the
-        second sweep of the first grid, from which finer grids start.
+        second sweep of the first grid, from which finer grids start. In a time step the inlet moves
+        it by a station or two, so only where a surface moves against x.
 
         Parameters
         ----------
@@ -258,6 +259,7 @@ class FilmState:
         second = self.is_first_grid and self.sweeps == 1
         back = bool(self.model.terms.heat) and (self.thorough or second)
         if self.transient is not None:
+            back = back and not (self.model.terms.plain and min(self.film.scaled.moment.speeds) > 0)
             self.transient.heat_surfaces(self.surfaces)
         change = sweep(self.model, self.fields, self.surfaces, self.work, (steps, back))
         self.sweeps += 1
