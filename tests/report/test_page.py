@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tehl.api.problem import ContactProblem
+from tehl.cli import text
 from tehl.contact.materials import material
 from tehl.contact.transient import Transient
 from tehl.estimate.inlet_heating import InletFactor
@@ -108,6 +109,15 @@ def test_a_thermal_run_has_sections_of_heat_and_traction(thermal, result):
     assert "ΔT [K]" in words
     cold = " ".join(Page(report_text(result, dpi=40)).words)
     assert not any(word in cold for word in ("Traction", "Temperature", "ΔT"))
+
+
+@pytest.mark.usefixtures("no_pictures")
+@pytest.mark.parametrize(("missing", "warns"), [(0.02, False), (0.3, True), (-0.3, True)])
+def test_heat_that_differs_from_friction_is_not_trusted(thermal, monkeypatch, missing, warns):
+    for at in (module, text):
+        monkeypatch.setattr(at, "work_error", lambda _: missing)
+    found = " ".join(Page(report_text(thermal, dpi=40)).words), text.as_text(thermal)
+    assert {"heat and friction differ" in one for one in found} == {warns}
 
 
 @pytest.mark.usefixtures("unrendered")

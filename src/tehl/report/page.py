@@ -11,7 +11,7 @@ from tehl.estimate.wave_theory import waves_of
 from tehl.io.tables import DEFINITIONS
 from tehl.plots import Pictures, pictures_of
 from tehl.post.film import no_film
-from tehl.post.heat import work_error
+from tehl.post.heat import UNTRUSTED_HEAT, work_error
 from tehl.post.micro_film import RoughnessEffect
 from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
@@ -93,6 +93,7 @@ def report_text(
         "rises": list(rows_of(result, "rises")),
         "rough": rough_film(result, smooth),
         "roughness_effect": roughness,
+        "untrusted": UNTRUSTED_HEAT,
         "work_error": work_error(result),
     }
     return render("steady.html", **content)
