@@ -1,4 +1,4 @@
-"""What a run in time asks of its grid."""
+"""What a transient run asks of its grid."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What a run in time asks of its grid: to follow what changes, and its film at each moment."""
+"""What a transient run asks of its grid: to follow what changes, and its film at each moment."""
 
 from tehl.contact.moment import SAMPLES, courses_of, frozen, moments_of
 from tehl.contact.options import Domain
