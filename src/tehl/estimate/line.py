@@ -28,9 +28,10 @@ ZERO_EDGE_ERROR = 2.0
 """Error by zero pressure there, of power 3: one to two times what wider domains show."""
 LINE_BAR, LINE_NODES = 0.06, tuple(2**k * n + 1 for k in range(5, 10) for n in (16, 20, 24, 28))
 """Error of the film over M h^2, and numbers of nodes: on fewer a solve is hardly cheaper."""
-LINE_MINIMUM_BAR = 0.028
+LINE_MINIMUM_BAR, HEAVY_LINE = 0.028, 80.0
 """Error of the minimum film, behind the spike, over (M h)^1.5: within a factor of 2.5 for nine
-lines with M = 18 to 80, L = 10 to 13 on 513 to 4097 nodes, heated, thinning or neither."""
+lines with M = 18 to 80, L = 10 to 13 on 513 to 4097 nodes, heated, thinning or neither; and M of
+heavier ones: with it 0.3 to 1.5 of the errors of 16 lines with M up to 280, with theirs 1 to 6."""
 ROLLER_NODES, LEAST_ROWS = tuple(2**k * n + 1 for k in range(4, 9) for n in (16, 20, 24, 28)), 128
 """Numbers of nodes along a roller's entrainment, and least intervals along it: its ends."""
 SECOND_ORDER_BAR = 40.0
@@ -104,8 +105,8 @@ def line_points(groups: Groups, domain: Domain, error: float, least: float) -> i
     least : float
         Nodes that must be exceeded, for waves of the surfaces.
     """
-    width = domain.x[1] - domain.x[0]
-    minima = ((n, LINE_MINIMUM_BAR * (groups.M * width / (n - 1)) ** 1.5) for n in LINE_NODES)
+    width = min(groups.M, HEAVY_LINE) * (domain.x[1] - domain.x[0])
+    minima = ((n, LINE_MINIMUM_BAR * (width / (n - 1)) ** 1.5) for n in LINE_NODES)
     bars = ((nodes, max(bar, line_bar(groups, domain, nodes))) for nodes, bar in minima)
     return next((nodes for nodes, bar in bars if nodes > least and bar <= error), LINE_NODES[-1])
 
