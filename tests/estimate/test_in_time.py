@@ -2,6 +2,7 @@
 
 import pytest
 
+from tehl.base.errors import InputError
 from tehl.contact.moment import Moment, frozen, moment_at
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
@@ -11,6 +12,7 @@ from tehl.estimate.in_time import films_of_run
 from tehl.estimate.line import line_points
 from tehl.estimate.nodes import least_in_time, planned
 from tehl.estimate.scaling import ScaledProblem
+from tehl.report.explain import explain
 from tests.reference import moes_contact
 
 AT = Moment(load=0.4, speed=0.7, sliding=0.2, curvature=4.0)
@@ -80,3 +82,21 @@ def test_films_of_slow_moments_do_not_count():
     assert films_of_run(still, domain_of(still, Options())) == [
         (still, domain_of(still, Options()))
     ]
+
+
+@pytest.mark.parametrize(
+    "courses",
+    [
+        {"load": "1 - 3*t/(1 ms)"},
+        {"radius": "1 - 3*t/(1 ms)"},
+        {"radius": "1 - 2*t/(1 ms)"},
+        {"entrainment_speed": [[0, -1.0], ["1 ms", -0.6]]},
+        {"entrainment_speed": [[0, 0.0], ["1 ms", 1.0]]},
+    ],
+)
+def test_a_moment_that_is_not_possible_is_left_to_the_schedule(courses):
+    """It says in one sentence which value is not, and when."""
+    faulty = run(line(), **courses)
+    assert len(films_of_run(faulty, domain_of(faulty, Options()))) == 1
+    with pytest.raises(InputError, match="transient"):
+        explain(faulty.problem, Options())

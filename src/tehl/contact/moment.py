@@ -32,6 +32,11 @@ class Moment:
     """1/R_x."""
 
     @property
+    def is_possible(self) -> bool:
+        """Whether load and radius are positive numbers."""
+        return 0.0 < self.load < math.inf and 0.0 < self.curvature < math.inf
+
+    @property
     def speeds(self) -> tuple[float, float]:
         """Speeds of both surfaces along x over the entrainment speed of ``[contact]``."""
         return self.speed + 0.5 * self.sliding, self.speed - 0.5 * self.sliding
@@ -73,7 +78,7 @@ def timeline(problem: PointContact) -> Callable[[float], Moment]:
             speed=mean,
             sliding=along * slid,
             across=across * slid,
-            curvature=1.0 / radius(time) if radius else 1.0,
+            curvature=1.0 / (radius(time) or math.nan) if radius else 1.0,
         )
 
     return at

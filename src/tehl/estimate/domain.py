@@ -299,7 +299,8 @@ def _in_time(scaled: ScaledProblem, domain: Domain) -> Domain:
     moments = moments_of(scaled.problem, duration_of(scaled))
     is_line = scaled.groups.shape.as_line
     power = 0.5 if is_line else 1.0 / 3.0
-    wider = max(1.0, *((one.load / one.curvature) ** power for one in moments))
+    possible = ((one.load / one.curvature) ** power for one in moments if one.is_possible)
+    wider = max((1.0, *possible))
     inlet, outlet = (wider * edge for edge in domain.x)
     if min(one.speed for one in moments) < 0.0:
         outlet = max(-inlet, outlet)

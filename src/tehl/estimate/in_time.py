@@ -48,11 +48,11 @@ def films_of_run(scaled: ScaledProblem, domain: Domain) -> list[Posed]:
     """
     if not courses_of(scaled.problem):
         return [(scaled, domain)]
-    moments = moments_of(scaled.problem, duration_of(scaled))
-    fast = FAST * max(one.speed for one in moments)
-    chosen = [one for one in moments[EVERY::EVERY] if one.speed > fast]
-    if moments[0].speed > 0.0:
-        chosen.insert(0, moments[0])
+    first, *later = moments_of(scaled.problem, duration_of(scaled))[::EVERY]
+    fast = FAST * max(one.speed for one in (first, *later))
+    chosen = [first, *(one for one in later if one.speed > fast)]
+    if not all(one.is_possible and one.speed > 0.0 for one in chosen):  # the schedule says so
+        return [(scaled, domain)]
     problems = (frozen(scaled.problem, one) for one in chosen)
     return [_posed(scaled, ScaledProblem.of(one), domain) for one in problems]
 
