@@ -15,7 +15,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.report.explain import explain
 from tests.reference import moes_contact
 
-AT = Moment(load=0.4, speed=0.7, sliding=0.2, curvature=4.0)
+AT = Moment(load=0.4, speed=0.7, sliding=-0.2, curvature=4.0)
 
 
 def line() -> ContactProblem:
@@ -38,7 +38,7 @@ def test_a_frozen_contact_has_load_motion_and_radius_of_its_moment(problem: Cont
     assert still.transient is None
     assert still.load == pytest.approx(0.4 * problem.load)
     assert still.radius_x == pytest.approx(0.25 * problem.radius_x)
-    assert still.motion.speed_1 - still.motion.speed_2 == pytest.approx(0.2 * whole.scales.speed)
+    assert still.motion.speed_1 - still.motion.speed_2 == pytest.approx(-0.2 * whole.scales.speed)
     # (2 U) goes with speed and curvature, W of a line with load and curvature, of a point with R^2
     if problem.contact.is_line:
         width, highest = whole.groups.shape.grown(AT.load, AT.curvature)
@@ -69,6 +69,16 @@ def test_a_run_has_the_nodes_of_its_smallest_contact_on_its_own_domain():
     assert planned(shrinks, options).shape[1] == nodes
     assert least_in_time(shrinks, options) == nodes
     assert least_in_time(grows, options) < nodes
+
+
+def test_the_domain_of_a_load_that_grows_contains_its_widest_contact():
+    """Up to twice as wide, it lay beyond the outlet, and the run was refused."""
+    options = Options(error=0.02)
+    grows = run(line(), load=[[0, 1.0], ["1 ms", 4.0]])
+    inlet, outlet = domain_of(ScaledProblem.of(line()), options).x
+    assert domain_of(grows, options).x == pytest.approx((2.0 * inlet, 2.0 * outlet))
+    falls = run(line(), load=[[0, 1.0], ["1 ms", 0.2]])
+    assert domain_of(falls, options).x == (inlet, outlet)
 
 
 def test_films_of_slow_moments_do_not_count():

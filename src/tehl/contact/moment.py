@@ -109,15 +109,16 @@ def frozen(problem: Problem, moment: Moment) -> Problem:
         With a positive speed.
     """
     contact, radii = problem.contact, problem.radii_of_axes
-    has_lines = contact.has_lines
-    x = radii.x / moment.curvature
+    has_lines, x = contact.has_lines, radii.x / moment.curvature
+    along, across = direction(contact.sliding_angle)
+    slid = along * moment.sliding + across * moment.across
     stated = {
         "radius": x if has_lines else None,
         "radius_x": None if has_lines else x,
         "radius_y": None if has_lines else radii.y,
         "load_per_length" if contact.is_line else "load": problem.load * moment.load,
         "entrainment_speed": problem.entrainment_speed * moment.speed,
-        "slide_roll_ratio": math.hypot(moment.sliding, moment.across) / moment.speed,
+        "slide_roll_ratio": slid / moment.speed,
         "hertz_pressure": None,
         "moes_load": None,
         "moes_speed": None,

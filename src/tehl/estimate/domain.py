@@ -293,8 +293,8 @@ def proposed_domain(scaled: ScaledProblem, options: Options) -> Domain:
 
 
 def _in_time(scaled: ScaledProblem, domain: Domain) -> Domain:
-    """Return a domain of all moments of a run whose radius changes, or whose entrainment turns."""
-    if not {"radius", "entrainment_speed"} & set(courses_of(scaled.problem)):
+    """Return a domain of all moments of a run: the widest, and on both sides where motion turns."""
+    if not {"load", "radius", "entrainment_speed"} & set(courses_of(scaled.problem)):
         return domain
     moments = moments_of(scaled.problem, duration_of(scaled))
     is_line = scaled.groups.shape.as_line

@@ -51,7 +51,7 @@ def films_of_run(scaled: ScaledProblem, domain: Domain) -> list[Posed]:
     first, *later = moments_of(scaled.problem, duration_of(scaled))[::EVERY]
     fast = FAST * max(one.speed for one in (first, *later))
     chosen = [first, *(one for one in later if one.speed > fast)]
-    if not all(one.is_possible and one.speed > 0.0 for one in chosen):  # the schedule says so
+    if not all(one.is_possible and one.speed > 0.0 for one in chosen):  # schedules refuse it
         return [(scaled, domain)]
     problems = (frozen(scaled.problem, one) for one in chosen)
     return [_posed(scaled, ScaledProblem.of(one), domain) for one in problems]

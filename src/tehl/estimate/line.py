@@ -31,7 +31,8 @@ LINE_BAR, LINE_NODES = 0.06, tuple(2**k * n + 1 for k in range(5, 10) for n in (
 LINE_MINIMUM_BAR, HEAVY_LINE = 0.028, 80.0
 """Error of the minimum film, behind the spike, over (M h)^1.5: within a factor of 2.5 for nine
 lines with M = 18 to 80, L = 10 to 13 on 513 to 4097 nodes, heated, thinning or neither; and M of
-heavier ones: with it 0.3 to 1.5 of the errors of 16 lines with M up to 280, with theirs 1 to 6."""
+heavier ones: with it 0.15 to 1.9 of the errors of 20 lines with M = 90 to 280, with theirs up to 6;
+and 7 of that of one between asperities, M = 84."""
 ROLLER_NODES, LEAST_ROWS = tuple(2**k * n + 1 for k in range(4, 9) for n in (16, 20, 24, 28)), 128
 """Numbers of nodes along a roller's entrainment, and least intervals along it: its ends."""
 SECOND_ORDER_BAR = 40.0
