@@ -108,6 +108,7 @@ def passing(
             solid_friction=np.zeros_like(time),
             rigid_approach=np.full_like(time, -0.9),
             temperature_rise=np.zeros_like(time),
+            nodes=np.full(time.size, points),
             cycles=np.r_[0, np.full(STEPS, 3)],
             change=np.r_[0.0, np.full(STEPS, 5e-4)],
         ),

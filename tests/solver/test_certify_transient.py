@@ -139,8 +139,8 @@ class Replayed:
         self.outcomes, self.calls, self.ends = list(outcomes), [], []
         monkeypatch.setattr(sys.modules[MODULE], "solve_transient", self)
 
-    def __call__(self, problem, options, *, monitor, until):
-        del monitor
+    def __call__(self, problem, options, *, monitor, until, one_grid=False):
+        del monitor, one_grid
         self.ends.append(until)
         self.calls.append((options.points, problem.transient))
         outcome = self.outcomes.pop(0)

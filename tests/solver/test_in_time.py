@@ -25,6 +25,7 @@ from tehl.operators.trail import VaryingTrail
 from tehl.post.transient import film_at, way
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient import certify as certifying
+from tehl.solver.transient.endings import no_film
 from tehl.solver.transient.oil import Lead, Oil
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import Snapshot, pack, unpack
@@ -503,11 +504,14 @@ def test_a_film_at_rest_may_become_very_thin_and_is_not_called_negative():
     assert stops == pytest.approx(0.05 * loaded)
     film = runs[1].level.film.h
     film[:] = 0.5 * stops
-    status = runs[1]._touching(1e-3)
+    status = no_film(runs[1].level, 1e-3, rough=False)
     assert status.cause == "film_not_positive"
     assert "the film is thinner than its equations are solved for: smallest H" in status.message
     film[:] = -1.0
-    assert "the film is not positive: smallest H = -1" in runs[1]._touching(1e-3).message
+    assert (
+        "the film is not positive: smallest H = -1"
+        in no_film(runs[1].level, 1e-3, rough=False).message
+    )
 
 
 def test_steps_between_smooth_surfaces_are_as_long_on_fine_grids_as_on_usual_ones():

@@ -17,6 +17,7 @@ from tehl.solver.cost import Clock
 from tehl.solver.judging import goal
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient import run
+from tehl.solver.transient.endings import step_not_settled
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import pack, unpack
 from tehl.solver.transient.step import StepError
@@ -441,7 +442,7 @@ def test_a_step_of_an_oil_that_shears_beyond_its_stress_names_its_law():
     tables |= {"thermal": {}, "transient": {"duration": 1e-3, "entrainment_speed": speed}}
     case = ContactProblem.model_validate(tables)
     run = Run(case, Options(points=(1025, 1)), case.transient, SILENT)
-    status = run.step_not_settled(StepError("diverged", 1e5), 1e-4)
+    status = step_not_settled(run.stepper.solver, run.transient, StepError("diverged", 1e5), 1e-4)
     assert "Likely cause: lubricant.shear.law = newtonian" in status.message
     assert set(status.hint.settings) == {"lubricant.shear"}
 
@@ -472,7 +473,8 @@ def test_a_run_ends_at_the_time_that_is_stated_and_continues_from_there(monkeypa
 def test_the_hint_of_a_step_that_does_not_converge_names_asperities_if_any(cause, change, rough):
     case = in_time(7.5, transient={"tolerance": 1e-12}, surface_1=wave() if rough else {})
     run = Run(case, OPTIONS, case.transient, SILENT)
-    hint = str(run.step_not_settled(StepError(cause, change), 0.0).hint)
+    error = StepError(cause, change)
+    hint = str(step_not_settled(run.stepper.solver, run.transient, error, 0.0).hint)
     assert ("asperities" in hint) == rough
     assert "numerics.points" in hint
 

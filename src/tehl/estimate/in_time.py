@@ -1,6 +1,8 @@
 """What a transient run asks of its grid: to follow what changes, and its film at each moment."""
 
-from tehl.contact.moment import SAMPLES, courses_of, frozen, moments_of
+from collections.abc import Sequence
+
+from tehl.contact.moment import SAMPLES, Moment, courses_of, frozen, moments_of
 from tehl.contact.options import Domain
 from tehl.estimate.duration import duration_of, steps_of_courses
 from tehl.estimate.scaling import ScaledProblem
@@ -53,8 +55,25 @@ def films_of_run(scaled: ScaledProblem, domain: Domain) -> list[Posed]:
     chosen = [first, *(one for one in later if one.speed > fast)]
     if not all(one.is_possible and one.speed > 0.0 for one in chosen):  # schedules refuse it
         return [(scaled, domain)]
-    problems = (frozen(scaled.problem, one) for one in chosen)
-    return [_posed(scaled, ScaledProblem.of(one), domain) for one in problems]
+    return [one for one in films_of(scaled, domain, chosen) if one is not None]
+
+
+def films_of(
+    scaled: ScaledProblem, domain: Domain, moments: Sequence[Moment]
+) -> list[Posed | None]:
+    """Return the steady contacts of some moments; None where there is none.
+
+    Parameters
+    ----------
+    scaled, domain, moments : ScaledProblem, Domain, sequence of Moment
+        The contact, the edges of its run, and the moments.
+    """
+    return [
+        _posed(scaled, ScaledProblem.of(frozen(scaled.problem, one)), domain)
+        if one.is_possible and one.speed > 0.0
+        else None
+        for one in moments
+    ]
 
 
 def _posed(stated: ScaledProblem, own: ScaledProblem, domain: Domain) -> Posed:

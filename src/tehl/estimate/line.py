@@ -94,6 +94,19 @@ def line_bar(groups: Groups, domain: Domain, nodes: float) -> float:
     return LINE_BAR * groups.M * ((domain.x[1] - domain.x[0]) / (nodes - 1)) ** 2
 
 
+def line_error(groups: Groups, domain: Domain, nodes: float) -> float:
+    """Return the error bar by the mesh to expect of central and minimum film, the larger one.
+
+    Parameters
+    ----------
+    groups, domain, nodes
+        As of `line_bar`.
+    """
+    width = min(groups.M, HEAVY_LINE) * (domain.x[1] - domain.x[0])
+    minimum = LINE_MINIMUM_BAR * (width / (nodes - 1)) ** 1.5
+    return max(minimum, line_bar(groups, domain, nodes))
+
+
 def line_points(groups: Groups, domain: Domain, error: float, least: float) -> int:
     """Return the nodes on which the error bars of the film will be below an error.
 
@@ -106,9 +119,7 @@ def line_points(groups: Groups, domain: Domain, error: float, least: float) -> i
     least : float
         Nodes that must be exceeded, for waves of the surfaces.
     """
-    width = min(groups.M, HEAVY_LINE) * (domain.x[1] - domain.x[0])
-    minima = ((n, LINE_MINIMUM_BAR * (width / (n - 1)) ** 1.5) for n in LINE_NODES)
-    bars = ((nodes, max(bar, line_bar(groups, domain, nodes))) for nodes, bar in minima)
+    bars = ((nodes, line_error(groups, domain, nodes)) for nodes in LINE_NODES)
     return next((nodes for nodes, bar in bars if nodes > least and bar <= error), LINE_NODES[-1])
 
 

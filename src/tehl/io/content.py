@@ -293,14 +293,14 @@ def _around_contact(fields: Fields, *, positive: bool) -> Fields:
 def _transient(start: Solution, arrays: Arrays, attrs: Attributes) -> TransientSolution:
     state = _loaded(TransientSolution, attrs["transient"])
     reader = Reader(arrays=arrays, finite=state["status"].converged)
-    history = reader.columns(tables.HISTORY)
-    cycles = history.pop("cycles").astype(np.int64)
+    history: dict[str, Any] = dict(reader.columns(tables.HISTORY))
+    whole = {name: history[name].astype(np.int64) for name in ("nodes", "cycles")}
     return TransientSolution(
         **state,
         start=start,
-        history=History(**history, cycles=cycles),
+        history=History(**history | whole),
         profiles=Profiles(**reader.columns(tables.PROFILES)),
-        frames=_frames(reader, start.scaled.pressure.shape, cycles.size),
+        frames=_frames(reader, start.scaled.pressure.shape, whole["cycles"].size),
         bars=reader.part(HistoryBars, tables.BARS),
     )
 

@@ -153,6 +153,7 @@ def _transient(run: TransientSolution) -> Block:
             "duration_s": float(times[-1]),
             "step_s": run.time_step,
             "steps": len(times) - 1,
+            "nodes": np.unique(history.nodes)[::-1].tolist(),
             "frames": len(run.frames.step),
             "late_extremes": list(late_extremes(run)),
             "longer_duration_s": longer_duration(run),

@@ -212,6 +212,7 @@ HISTORY = _table(
     ("rigid_approach", "H00", "1", "rigid approach"),
     ("temperature_rise", "temperature_rise", "K", "largest rise of the film over the oil entering"),
     ("temperature_rise", "film_rise_max", "K", "largest rise over the oil at the inlet"),
+    ("nodes", "step_nodes", "1", "nodes along x of the step"),
     ("cycles", "step_cycles", "1", "multigrid cycles of the step"),
     ("change", "step_change", "1", "largest change of P in the last cycle of the step"),
 )

@@ -103,7 +103,7 @@ class VaryingTrail:
         nodes = way / self.spacing
         self.inside = slice(beyond, beyond + flux.shape[0])
         wide = np.pad(flux.T, ((0, 0), (beyond, beyond)))
-        past = math.ceil(wide.shape[1] / nodes)
+        past = math.ceil((wide.shape[1] - 1) / nodes)  # the same on a grid of half the nodes
         weights = history(steps + past, time_step)
         self.near = weights.near
         self.weights = trail.Weights(*(weights.next_, weights.decay, weights.older, weights.newer))

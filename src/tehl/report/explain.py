@@ -252,7 +252,8 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     along, across = units_of(grid, scaled.scales)
     mesh = (grid.dx * along, grid.dy * across)
     heights = asperities(problem, options, mesh, likely_film(scaled).central_m)
-    plan, bodies = transient_plan(scaled, options, mesh), body_effect(scaled)
+    plan = transient_plan(scaled, options, mesh, halves=asked.points == "auto")
+    bodies = body_effect(scaled)
     heat = expected_heat(scaled, bodies)
     return Explanation(
         scaled=scaled,

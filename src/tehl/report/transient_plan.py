@@ -17,6 +17,7 @@ from tehl.estimate.duration import (
     number_of_steps,
     stride_on,
 )
+from tehl.estimate.halving import halvings, parts_of_run
 from tehl.estimate.in_time import PART_IN_STEP
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
@@ -43,6 +44,8 @@ class TransientPlan:
     """[s]."""
     steps: int
     """Number of time steps."""
+    halved_s: tuple[float, ...]
+    """Times from which on the nodes along x are halved, as the contact has grown [s]."""
     seconds: float
     """Estimated CPU time [s]."""
     distance: float
@@ -61,7 +64,7 @@ class TransientPlan:
 
 
 def transient_plan(
-    scaled: ScaledProblem, options: Options, mesh: tuple[float, float]
+    scaled: ScaledProblem, options: Options, mesh: tuple[float, float], *, halves: bool
 ) -> TransientPlan | None:
     """Return the plan of a transient run, None for a steady case.
 
@@ -73,6 +76,8 @@ def transient_plan(
         Its numerics.
     mesh : (float, float)
         Mesh widths of the finest grid along x and y [m].
+    halves : bool
+        Whether the run may go on with fewer nodes: where none are stated.
     """
     problem, units, transient = scaled.problem, scaled.scales, scaled.problem.transient
     if transient is None:
@@ -90,8 +95,11 @@ def transient_plan(
     first, second = (min(wave[0] / dx, wave[1] / dy) for wave in waves)
     speeds = (problem.motion.speed_1, problem.motion.speed_2)
     shift = (stride * speeds[0] / units.speed, stride * speeds[1] / units.speed)
-    longer = 1.0 + CYCLES_OF_STRIDE * max(stride - USUAL_STRIDE, 0)
-    seconds, limit = (start + cost * nx * ny) * longer * steps, options.max_time
+    halved = halvings(scaled, options, (nx, None), stride, steps) if halves else ()
+    seconds, limit = 0.0, options.max_time
+    for nodes, widths, number in parts_of_run(nx, stride, steps, halved):
+        longer = 1.0 + CYCLES_OF_STRIDE * max(widths - USUAL_STRIDE, 0)
+        seconds += (start + cost * nodes * ny) * longer * number
     ends = (
         [f"numerics.max_time = {limit:g} s: the run takes about {seconds:.2g} s and may end early"]
         if "max_time" in options.model_fields_set and seconds > limit
@@ -101,6 +109,7 @@ def transient_plan(
         duration_s=duration,
         step_s=step,
         steps=steps,
+        halved_s=tuple(step * duration / steps for step in halved),
         seconds=seconds,
         distance=_distance(scaled, step, steps),
         speeds_m_s=speeds,

@@ -69,6 +69,8 @@ class History:
     """H00 [-]."""
     temperature_rise: Array
     """Largest rise of the film over the oil at the inlet [K]; zero where it is isothermal."""
+    nodes: IntArray
+    """Nodes along x: a contact that grows may go on with half of them."""
     cycles: IntArray
     """Multigrid cycles of the step."""
     change: Array

@@ -434,7 +434,8 @@ def _seconds(case: Case) -> float:
     seconds = expected_seconds(scaled, case.options) + 0.025  # beside the solve
     grid, scales = finest_grid(scaled, options), scaled.scales
     mesh = grid.dx * scales.half_width_x, grid.dy * scales.half_width_y
-    if in_time := transient_plan(scaled, options, mesh):
+    halves = case.options.points == "auto" and not case.certify
+    if in_time := transient_plan(scaled, options, mesh, halves=halves):
         seconds += in_time.seconds
     return seconds * (3.5 if case.certify else 1.0)  # over the finest grid, to tight tolerances
 

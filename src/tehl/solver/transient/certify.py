@@ -90,7 +90,7 @@ def certify_transient(
         check_certifiable(options, transient=True)
     monitor.message("certify: the finest grid")
     # the finest run is first, because it decides whether the problem is valid
-    finest = solve_transient(problem, options, monitor=monitor, until=until)
+    finest = solve_transient(problem, options, monitor=monitor, until=until, one_grid=True)
     if options.points == "auto":
         options = keeping_order(problem, options, finest.start.grid_options)
     if not finest.status.converged:

@@ -9,26 +9,26 @@ import numpy as np
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
-from tehl.base.wording import grid_size
 from tehl.contact.moment import courses_of
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.transient import Transient
 from tehl.estimate.duration import misplaced, number_of_steps, stride_on
 from tehl.estimate.grid import Grid
+from tehl.estimate.halving import halvings
 from tehl.estimate.in_time import PART_IN_STEP
 from tehl.estimate.nodes import finest_grid, least_in_time, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.schedule import schedule_of
 from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import MovingHeights, check_ends
-from tehl.result.solution import ConvergenceError, Hint, Solution, Status
-from tehl.result.transient import TIME_OVER, StepReport, TransientSolution
+from tehl.result.solution import ConvergenceError, Solution, Status
+from tehl.result.transient import StepReport, TransientSolution
 from tehl.solver.attempts import Attempt
 from tehl.solver.cost import Clock, end_of_time, working_time
+from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
-from tehl.solver.judging.diagnosis import cause_by_the_oil
 from tehl.solver.judging.measures import (
     is_resolved,
     mid_film_stress,
@@ -39,6 +39,8 @@ from tehl.solver.judging.measures import (
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import try_strategies
 from tehl.solver.transient.checks import check_peaks, check_size, check_stride, check_waves
+from tehl.solver.transient.coarser import at_nodes, go_coarser
+from tehl.solver.transient.endings import no_film, step_not_settled, time_over
 from tehl.solver.transient.oil import Lead
 from tehl.solver.transient.snapshot import ANEW, COLUMNS, Record, Snapshot, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
@@ -51,16 +53,11 @@ ACCEPTED_START_TOLERANCE = 2e-5
 """Tolerance at which cycles of the steady film may end without that: a fiftieth of that of a step.
 At steep ends of rollers a cycle leaves 0.8 to 0.9 of the change (M = 72 and 52: 6e-7 and 1.05e-5
 after the most cycles). The second one then has its central film to 1e-8 and the minimum to 4e-6."""
-SPARE_TIME = 2.0
-"""Time that a hint gives to the steps over what they are expected to take: `TIGHT_TIME` of it may
-go to the start."""
 SolveStart = Callable[..., tuple[Attempt, Solution]]
 """Solves for the steady film by options; keywords are those of `try_strategies`."""
-NEARLY_CONVERGED = 1e-6
-"""Change of P in the last cycle of a time step that only a tight tolerance rejects."""
 
 
-def solve_transient(
+def solve_transient(  # noqa: PLR0913 (keywords with defaults)
     problem: ContactProblem,
     options: Options | None = None,
     *,
@@ -68,6 +65,7 @@ def solve_transient(
     resume: Snapshot | None = None,
     keep: Callable[[Snapshot], None] | None = None,
     until: float | None = None,
+    one_grid: bool = False,
 ) -> TransientSolution:
     """Solve a transient contact.
 
@@ -85,6 +83,8 @@ def solve_transient(
         Called with a snapshot after each step; copies it if it is to be kept.
     until : float
         When the time is over, on the clock of `working_time` [s]; that of the options if left out.
+    one_grid : bool
+        Keep the nodes of the start, where a contact that grows would go on with fewer.
 
     Returns
     -------
@@ -103,7 +103,7 @@ def solve_transient(
     if transient is None:
         raise InputError("transient: missing from the case; solve the steady film with tehl.solve")
     warm_up(coupled=problem.is_coupled)
-    run = Run(problem, options, transient, monitor, until=until)
+    run = Run(problem, options, transient, monitor, until=until, one_grid=one_grid)
     if resume is not None:
         run.restore(resume)
     return run.result(run.advance(monitor, keep))
@@ -120,11 +120,12 @@ class Run:
         monitor: StepMonitor,
         *,
         until: float | None = None,
+        one_grid: bool = False,
     ) -> None:
         stated = "max_time" in options.model_fields_set
         own = end_of_time(options) if stated else math.inf
         self.clock = Clock(own if until is None else until)
-        self.problem, self.transient = problem, transient
+        self.transient = transient
         self.scaled = scaled = ScaledProblem.of(problem)
         smooth = transient.start == "smooth"
         pose = partial(self._pose, smooth=smooth, part=PART_IN_STEP * options.target)
@@ -132,10 +133,26 @@ class Run:
         attempt, self.start = self._steady_start(options, monitor)
         self.scaled = attempt.run.hierarchy.scaled  # it knows the flooded film
         pose(attempt.run.finest.grid)
-        settings: Sequence[Relaxation] = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
-        self.stepper = Stepper(attempt.run, self.transient, settings, self.schedule)
+        self.stepper = self._stepper(attempt.run)
+        self.halvings = () if one_grid else self._halvings(options)
         self.record = Record()
         self._note(0, self.heights.at(0.0, self.schedule.places(0)), None)
+
+    @property
+    def problem(self) -> ContactProblem:
+        """The contact."""
+        return self.scaled.problem
+
+    def _halvings(self, options: Options) -> tuple[int, ...]:
+        """Return when the run goes on with fewer nodes: if none are stated."""
+        errors, nodes, stride = self.start.errors, self.level.grid.nx, self.transient.stride
+        if options.points != "auto" or errors is None:
+            return ()
+        return halvings(self.scaled, options, (nodes, errors.film()), stride, self.steps)
+
+    def _stepper(self, solver: FilmSolver) -> Stepper:
+        settings: Sequence[Relaxation] = COUPLED_SETTINGS if self.problem.is_coupled else SETTINGS
+        return Stepper(solver, self.transient, settings, self.schedule)
 
     def _pose(self, grid: Grid, *, smooth: bool, part: float) -> None:
         """Set heights, smooth or not at first, and time steps by `stride_on`; check them."""
@@ -221,15 +238,18 @@ class Run:
         for step in range(len(self.record.rows), self.steps + 1):
             time_now = step * self.seconds
             if self.clock.is_over:
-                return self._time_over(step - 1)
+                spent = self.clock.cost().wall_seconds
+                return time_over(self.start, spent, (step - 1, self.steps), self.seconds)
+            for _ in range(self.halvings.count(step)):
+                self._go_coarser()
             heights = self.heights.at(time_now, self.schedule.places(step))
             try:
                 end = self.stepper.step(heights[0] + heights[1], step)
             except StepError as error:
-                return self.step_not_settled(error, time_now)
+                return step_not_settled(self.stepper.solver, self.transient, error, time_now)
             self._note(step, heights, end)
             if not is_resolved(self.level):
-                return self._touching(time_now)
+                return no_film(self.level, time_now, rough=self.problem.is_rough)
             monitor.step(self._report(step, end))
             if keep is not None:
                 keep(self.snapshot())
@@ -250,6 +270,7 @@ class Run:
             **tractions(self.level, scaled, self.stepper.solver.coupling.state),
             "rolling_moment": rolling_moment(self.level, scaled),
             "temperature_rise": self.stepper.solver.coupling.temperature_rise(),
+            "nodes": self.level.grid.nx,
             "cycles": end.cycles if end else 0,
             "change": end.change if end else 0.0,
         }
@@ -258,6 +279,26 @@ class Run:
             state = self.stepper.solver.coupling.state
             stress = mid_film_stress(self.level, self.scaled, state)
         self.record.note(self.level, heights, numbers, keep=keep, stress=stress)
+
+    def _go_coarser(self) -> None:
+        """Go on with half the nodes, and the state of the run at these."""
+        nodes, before, predictor = self.level.grid.nx, self.snapshot(), self.stepper.predictor
+        steady, squeezed = predictor.steady, self.stepper.squeeze.steady
+        go_coarser(self.stepper.solver)
+        self.transient = self.transient.model_copy(update={"stride": self.transient.stride // 2})
+        entrance = self.transient.entrance if self.transient.start == "smooth" else None
+        self.heights = MovingHeights(self.scaled, self.level.grid, entrance)
+        self.stepper = self._stepper(self.stepper.solver)
+        after = self.snapshot().fields
+        fields = {
+            name: at_nodes(field, after[name].shape, nodes) for name, field in before.fields.items()
+        }
+        self._take(replace(before, fields=fields))
+        # they are those of the start, which a snapshot does not have
+        self.stepper.predictor.steady = at_nodes(steady, self.level.film.p.shape, nodes)
+        squeeze = self.stepper.squeeze
+        if not isinstance(squeeze, Lead):
+            squeeze.steady = at_nodes(squeezed, squeeze.steady.shape, nodes)
 
     def _report(self, step: int, end: StepEnd) -> StepReport:
         row = dict(zip(COLUMNS, self.record.rows[-1], strict=True))
@@ -298,8 +339,16 @@ class Run:
 
         Raises InputError if it belongs to another grid or other steps, or lacks a field.
         """
-        level, fields = self.level, dict(snapshot.fields)
+        ended = len(snapshot.record.rows) - 1
+        for _ in range(sum(step <= ended for step in self.halvings)):
+            self._go_coarser()
         self._check(snapshot)
+        self._take(snapshot)
+        self.record, self.clock.before = snapshot.record, snapshot.cost
+
+    def _take(self, snapshot: Snapshot) -> None:
+        """Take the fields of a snapshot."""
+        level, fields = self.level, dict(snapshot.fields)
         oil = self.stepper.oil
         oil.now, oil.before = fields.pop("mass"), fields.pop("mass_before")
         steady = fields.pop("mass_steady")
@@ -317,126 +366,35 @@ class Run:
         coarsest = fields.pop("coarsest")
         self.stepper.solver.coupling.unpack(self.stepper.solver.levels, fields)
         self.stepper.solver.hierarchy.coarsest.unpack(coarsest)
-        self.record, self.clock.before = snapshot.record, snapshot.cost
 
     def _check(self, snapshot: Snapshot) -> None:
         """Check that a snapshot belongs to this problem."""
         if _shapes(snapshot.fields) != _shapes(self.snapshot().fields):
             raise InputError(f"the checkpoint has another grid than the case, or is damaged{ANEW}")
-        record, grid = snapshot.record, self.level.grid
+        record, (_, nx) = snapshot.record, self.record.profiles[0].shape
         steps, fields = np.arange(len(record.rows)), 3 + (self.problem.stress is not None)
         times = np.array([row[0] for row in record.rows])
         fitting = (
             steps.size <= self.steps + 1
             and 0 <= snapshot.setting < len(self.stepper.settings)
             and np.allclose(times, steps * self.seconds, rtol=1e-9, atol=0.0)
-            and record.profiles[0].shape[-1] == grid.nx
+            and record.profiles[0].shape[-1] == nx
             and record.frame_steps == [step for step in steps if step in self.kept]
-            and all(frame.shape == (fields, grid.ny, grid.nx) for frame in record.frames)
+            and all(frame.shape == (fields, self.level.grid.ny, nx) for frame in record.frames)
         )
         if not fitting:
             raise InputError(f"the checkpoint has other steps than the case, or is damaged{ANEW}")
-
-    def step_not_settled(self, error: StepError, seconds: float) -> Status:
-        """Return ``step_not_settled`` of a time step that did not converge.
-
-        Parameters
-        ----------
-        error : StepError
-            With its cause and the last change of the pressure.
-        seconds : float
-            End of the step [s].
-        """
-        (nx, ny), tolerance = self.level.grid.points, self.transient.tolerance
-        other = "lower or longer asperities, " if self.problem.is_rough else ""
-        hint = Hint(
-            f"Take {other}more nodes (numerics.points), or more cycles per step "
-            "(transient.max_cycles)."
-        )
-        # short waves of the film grow at stresses that no oil bears, and finer meshes have them
-        oil, likely = cause_by_the_oil(self.stepper.solver.hierarchy.scaled), ""
-        if oil is not None:
-            hint, likely = oil.hint, f" Likely cause: {oil.message}"
-        if error.cause == "stalled" and tolerance < error.change < NEARLY_CONVERGED:
-            hint = Hint(
-                f"the pressure has nearly converged (now {tolerance:g}).",
-                {"transient.tolerance": NEARLY_CONVERGED},
-            )
-        return Status(
-            kind=error.cause,
-            cause="step_not_settled",
-            message=(
-                f"The time step to {seconds:.4g} s did not converge on {grid_size((nx, ny))}: "
-                f"the last change of P is {error.change:.2g}. The steps before it are kept."
-                f"{likely}"
-            ),
-            hint=hint,
-        )
-
-    def _time_over(self, steps: int) -> Status:
-        """Return ``time_over`` of a run after some ``steps``; the hint is to the time it takes."""
-        advice, settings = "Take a longer numerics.max_time, or ", {}
-        if steps:
-            began, spent = self.start.cost.wall_seconds, self.clock.cost().wall_seconds
-            needed = began + SPARE_TIME * (spent - began) * self.steps / steps
-            unit = 10.0 ** (math.floor(math.log10(needed)) - 1)
-            settings = {"numerics.max_time": f"{unit * math.ceil(needed / unit):g} s"}
-            advice = "the run takes less at its speed so far; or take "
-        return Status(
-            kind="not_converged",
-            cause=TIME_OVER,
-            message=(
-                f"numerics.max_time = {self.start.options.max_time:g} s is over at "
-                f"{steps * self.seconds:.4g} of {self.steps * self.seconds:.4g} s of the run. The "
-                "steps until then are kept."
-            ),
-            hint=Hint(
-                f"{advice}a larger transient.stride, fewer nodes (numerics.points) or a shorter "
-                "transient.duration.",
-                settings,
-            ),
-        )
-
-    def _touching(self, seconds: float) -> Status:
-        """Return ``asperity_contact``, or ``film_not_positive`` of smooth surfaces."""
-        grid, h = self.level.grid, self.level.film.h
-        row, column = np.unravel_index(int(np.argmin(h)), h.shape)
-        how = "not positive" if h.min() <= 0.0 else "thinner than its equations are solved for"
-        where = (
-            f"At {seconds:.4g} s the film is {how}: smallest H = {h.min():.3g} at "
-            f"X = {grid.x[column]:.3g}, Y = {grid.y[row]:.3g}"
-        )
-        if self.problem.is_rough:
-            cause = "asperity_contact"
-            message = (
-                f"{where}. On {grid_size(grid.points)} asperities would touch there, which a "
-                "film that carries the whole load does not describe; on a finer grid they may "
-                "not. The steps before it are kept."
-            )
-            hint = Hint(
-                "a finer grid may have a film; else take lower or longer asperities, or a higher "
-                "speed.",
-                {"numerics.points": 2 * max(grid.points) - 1},
-            )
-        else:
-            cause = "film_not_positive"
-            message = (
-                f"{where}, between smooth surfaces: the load grows too fast, or beyond the domain, "
-                "or no oil comes. The steps before it are kept."
-            )
-            hint = Hint("Let load or speed change less, or take more nodes (numerics.points).")
-        return Status(kind="not_converged", cause=cause, message=message, hint=hint)
 
     def result(self, status: Status) -> TransientSolution:
         """Return the result; an open minimum of the steady film is reported in its status."""
         if status.converged and (steady := self.start.status).is_vague:
             status = replace(status, message=f"At time zero: {steady.message}", hint=steady.hint)
-        full, scales = (self.level.grid.ny, self.level.grid.nx), self.scaled.scales
+        (_, nx), scales = self.record.profiles[0].shape, self.scaled.scales
         return TransientSolution(
             start=self.start,
             history=self.record.history(scales),
             profiles=self.record.lines(scales),
-            frames=self.record.fields(scales, full),
+            frames=self.record.fields(scales, (self.level.grid.ny, nx)),
             time_step=self.seconds,
             status=status,
             cost=self.clock.cost(),

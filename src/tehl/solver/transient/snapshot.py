@@ -15,6 +15,7 @@ from tehl.base.typing import Array
 from tehl.contact.transient import Transient
 from tehl.estimate.scaling import Scales
 from tehl.operators.heated_film import stress_unit
+from tehl.operators.transfer import midpoints
 from tehl.result.solution import Cost
 from tehl.result.transient import Frames, History, Profiles
 from tehl.solver.cycle.level import Level
@@ -52,7 +53,7 @@ class Record:
     rows: list[tuple[float, ...]] = field(default_factory=list)
     """Per step, the columns of `tehl.result.transient.History`."""
     profiles: list[Array] = field(default_factory=list)
-    """Per step, pressure, film and both heights along y = 0, (4, nx)."""
+    """Per step, pressure, film and both heights along y = 0, (4, nx), at the nodes of the first."""
     frame_steps: list[int] = field(default_factory=list)
     """Steps whose fields are stored."""
     frames: list[Array] = field(default_factory=list)
@@ -94,13 +95,20 @@ class Record:
         line = 0 if level.grid.mirror else level.grid.shape[0] // 2
         pressure = np.maximum(carried(level), 0.0)  # between asperities it may be an error below
         lines = (pressure, level.film.h, *heights)
-        self.profiles.append(np.stack([one[line] for one in lines]))
+        self.profiles.append(self._at_first_nodes(np.stack([one[line] for one in lines])))
         if keep:
             self.frame_steps.append(len(self.rows) - 1)
             together = heights[0] + heights[1]
             stored = (pressure, level.film.h, together, *(() if stress is None else (stress,)))
-            whole = [level.grid.unfold(one) for one in stored]
-            self.frames.append(np.stack(whole).astype(np.float32))
+            whole = np.stack([level.grid.unfold(one) for one in stored])
+            self.frames.append(self._at_first_nodes(whole).astype(np.float32))
+
+    def _at_first_nodes(self, fields: Array) -> Array:
+        """Return fields at the nodes of time zero, linear between those of a coarser grid."""
+        nodes = self.profiles[0].shape[-1] if self.profiles else fields.shape[-1]
+        while fields.shape[-1] < nodes:
+            fields = midpoints(fields, (*fields.shape[:-1], 2 * fields.shape[-1] - 1))
+        return fields
 
     def copy(self) -> "Record":
         """Return a copy that later steps do not change."""
@@ -119,7 +127,8 @@ class Record:
             name: column * units.get(name, 1.0)
             for name, column in zip(COLUMNS, np.array(self.rows).T, strict=True)
         }
-        return History(**columns | {"cycles": columns["cycles"].astype(np.int64)})
+        whole = {name: columns[name].astype(np.int64) for name in ("nodes", "cycles")}
+        return History(**columns | whole)
 
     def lines(self, scales: Scales) -> Profiles:
         """Return the profiles of all steps, in SI."""

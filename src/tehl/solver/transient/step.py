@@ -100,7 +100,7 @@ class Stepper:
         # all levels take the same time step, and so the same weight of rho H
         levels = solver.hierarchy.chain(solver.levels)
         for one in levels:
-            stencil = step_stencil(one.stencil, schedule.step)
+            stencil = step_stencil(one.equations.stencil, schedule.step)
             one.equations = replace(one.equations, stencil=stencil, entrainment=ALONG_X)
             one.film = one.film._replace(**ALONG_X._asdict())
         self.equations = level.equations  # with load and gap of the start
