@@ -26,8 +26,9 @@ from tehl.estimate.starvation import is_starved, starved_domain
 CAUTION = 2.0
 """Factor on the slope of the film formula by load, which is half of what wider domains show between
 M = 2 and 5."""
-LARGEST_DOMAIN_FACTOR = 2.5
-"""Largest factor on the domain because of the temperature of the bodies."""
+LARGEST_DOMAIN_FACTOR, LONGEST_INLET = 2.5, 4.0
+"""Largest factor on the domain because of the temperature of the bodies, and on the inlet alone
+because of its heat."""
 DOMAIN_STEP, ENTRY_PART = 1.05, 0.3
 """Steps of that factor, and part of the error of the domain that it leaves to the oil entering."""
 INLET_HEAT_PART, STATED_HEAT_PART = 0.2, 0.5
@@ -355,8 +356,9 @@ def _of_film(scaled: ScaledProblem, error: float, *, near: bool) -> Domain:
     is_heated = not shape.as_line and not body_contrast(scaled)
     heat_part = INLET_HEAT_PART if near else STATED_HEAT_PART
     left = (heat_part if is_heated else ENTRY_PART) * error
-    while factor < LARGEST_DOMAIN_FACTOR and entry_error(scaled, domain) > left:
-        factor = min(DOMAIN_STEP * factor, LARGEST_DOMAIN_FACTOR)
+    most = LONGEST_INLET if is_heated else LARGEST_DOMAIN_FACTOR
+    while factor < most and entry_error(scaled, domain) > left:
+        factor = min(DOMAIN_STEP * factor, most)
         if is_heated:
             domain = _rectangle(-factor * least.x[0], least.x[1], least.y[1])
             continue
