@@ -442,9 +442,24 @@ def test_a_step_of_an_oil_that_shears_beyond_its_stress_names_its_law():
     tables |= {"thermal": {}, "transient": {"duration": 1e-3, "entrainment_speed": speed}}
     case = ContactProblem.model_validate(tables)
     run = Run(case, Options(points=(1025, 1)), case.transient, SILENT)
-    status = step_not_settled(run.stepper.solver, run.transient, StepError("diverged", 1e5), 1e-4)
+    status = step_not_settled(run.stepper, StepError("diverged", 1e5), 1e-4)
     assert "Likely cause: lubricant.shear.law = newtonian" in status.message
     assert set(status.hint.settings) == {"lubricant.shear"}
+
+
+def test_the_hint_of_waves_names_the_law_of_oil_that_slides_later():
+    """A pair of gears (L = 19, Newtonian, waves of 0.3 um) stalls; of an Eyring oil it goes on."""
+    tables = moes_contact(10.0, 19.0).model_dump(exclude_none=True)
+    tables["contact"] = {"type": "line", "radius": 0.01, "moes_load": 10.0, "moes_speed": 19.0}
+    wavy = {"type": "wave", "amplitude": 2e-7, "wavelength": 3e-4}
+    tables["surface_1"] = {"material": "steel", "roughness": wavy}
+    tables["surface_2"] = {"material": "steel"}
+    tables["transient"] = {"duration": 1e-3, "sliding_speed": [[0.0, 0.0], [1e-3, 1.0]]}
+    case = ContactProblem.model_validate(tables)
+    run = Run(case, Options(points=(257, 1)), case.transient, SILENT)
+    status = step_not_settled(run.stepper, StepError("stalled", 1.4), 1e-4)
+    assert set(status.hint.settings) == {"lubricant.shear"}
+    assert "slide_roll_ratio = 1:" in status.message
 
 
 def test_an_unreachable_tolerance_is_reported():
@@ -474,7 +489,7 @@ def test_the_hint_of_a_step_that_does_not_converge_names_asperities_if_any(cause
     case = in_time(7.5, transient={"tolerance": 1e-12}, surface_1=wave() if rough else {})
     run = Run(case, OPTIONS, case.transient, SILENT)
     error = StepError(cause, change)
-    hint = str(step_not_settled(run.stepper.solver, run.transient, error, 0.0).hint)
+    hint = str(step_not_settled(run.stepper, error, 0.0).hint)
     assert ("asperities" in hint) == rough
     assert "numerics.points" in hint
 

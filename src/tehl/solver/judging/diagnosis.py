@@ -205,15 +205,17 @@ def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
     )
 
 
-def cause_by_the_oil(scaled: ScaledProblem) -> LikelyCause | None:
+def cause_by_the_oil(scaled: ScaledProblem, *, waves: bool = False) -> LikelyCause | None:
     """Return the law of the oil that is a likely cause of failure, None if they are credible.
 
     Parameters
     ----------
     scaled : ScaledProblem
         Shear stress and viscosity are compared with those of oils.
+    waves : bool
+        Whether the film has short waves, which oil that thins leaves lower, heated or not.
     """
-    found = [*_shear_stress(scaled)] if scaled.problem.is_coupled else []
+    found = [*_shear_stress(scaled)] if scaled.problem.is_coupled or waves else []
     return next(iter((*found, *_glass(scaled.problem))), None)
 
 

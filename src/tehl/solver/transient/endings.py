@@ -5,13 +5,13 @@ import math
 import numpy as np
 
 from tehl.base.wording import grid_size
-from tehl.contact.transient import Transient
+from tehl.contact.moment import frozen
+from tehl.estimate.scaling import ScaledProblem
 from tehl.result.solution import Hint, Solution, Status
 from tehl.result.transient import TIME_OVER
-from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.diagnosis import cause_by_the_oil
-from tehl.solver.transient.step import StepError
+from tehl.solver.transient.step import StepError, Stepper
 
 SPARE_TIME = 2.0
 """Time that a hint gives to the steps over what they are expected to take: half of it may go to the
@@ -20,28 +20,29 @@ NEARLY_CONVERGED = 1e-6
 """Change of P in the last cycle of a time step that only a tight tolerance rejects."""
 
 
-def step_not_settled(
-    solver: FilmSolver, transient: Transient, error: StepError, seconds: float
-) -> Status:
+def step_not_settled(stepper: Stepper, error: StepError, seconds: float) -> Status:
     """Return ``step_not_settled`` of a time step that did not converge.
 
     Parameters
     ----------
-    solver, transient : FilmSolver, Transient
-        The levels of the run, and its tolerance.
+    stepper : Stepper
+        With the levels of the run, its tolerance and its moments.
     error : StepError
         With its cause and the last change of the pressure.
     seconds : float
         End of the step [s].
     """
-    points, tolerance = solver.finest.grid.points, transient.tolerance
-    scaled = solver.hierarchy.scaled
-    other = "lower or longer asperities, " if scaled.problem.is_rough else ""
+    points, tolerance = stepper.solver.finest.grid.points, stepper.transient.tolerance
+    problem = stepper.solver.hierarchy.scaled.problem
+    other = "lower or longer asperities, " if problem.is_rough else ""
     hint = Hint(
         f"Take {other}more nodes (numerics.points), or more cycles per step (transient.max_cycles)."
     )
     # short waves of the film grow at stresses that no oil bears, and finer meshes have them
-    oil, likely = cause_by_the_oil(scaled), ""
+    moving = (one for one in stepper.schedule.moments if one.speed > 0.0)
+    fastest = max(moving, key=lambda one: math.hypot(one.sliding, one.across))
+    sheared = ScaledProblem.of(frozen(problem, fastest))
+    oil, likely = cause_by_the_oil(sheared, waves=problem.is_rough), ""
     if oil is not None:
         hint, likely = oil.hint, f" Likely cause: {oil.message}"
     if error.cause == "stalled" and tolerance < error.change < NEARLY_CONVERGED:

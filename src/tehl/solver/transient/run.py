@@ -246,7 +246,7 @@ class Run:
             try:
                 end = self.stepper.step(heights[0] + heights[1], step)
             except StepError as error:
-                return step_not_settled(self.stepper.solver, self.transient, error, time_now)
+                return step_not_settled(self.stepper, error, time_now)
             self._note(step, heights, end)
             if not is_resolved(self.level):
                 return no_film(self.level, time_now, rough=self.problem.is_rough)
