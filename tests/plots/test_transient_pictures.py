@@ -44,6 +44,21 @@ def test_a_load_that_changes_has_its_panel():
     assert drawn[-1] == pytest.approx(1.2 * 80.0)
 
 
+def test_the_film_axis_follows_a_contact_that_grows():
+    """The gap beside a contact that begins with a tenth of its width is not the film in it."""
+    run = make_transient()
+    steps, x = run.history.time.size, run.start.scaled.x
+    radius = np.linspace(1e-3, 1.0, steps)
+    width = radius[:, None] ** (1.0 / 3.0)
+    gap = np.maximum((x / width) ** 2 - 1.0, 0.0)
+    profiles = replace(run.profiles, film=1e-7 + 1e-5 * gap)
+    grown = replace(run, profiles=profiles, history=replace(run.history, radius=radius))
+    left, *_ = transient.space_time(grown).axes
+    assert left.collections[0].get_clim()[1] < 0.2
+    still = replace(run, profiles=profiles)
+    assert transient.space_time(still).axes[0].collections[0].get_clim()[1] > 10.0
+
+
 def test_the_load_of_a_line_is_drawn_per_millimetre():
     contact = {key: CASE["contact"][key] for key in ("entrainment_speed", "slide_roll_ratio")}
     contact |= {"type": "line", "radius": "10 mm", "load_per_length": "80 N/mm"}

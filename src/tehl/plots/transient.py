@@ -19,6 +19,8 @@ _MOMENTS = 4
 """Moments in one picture."""
 _FILM_AXIS_HEIGHT = 2.2
 """Height of the film axis, over the largest film in the contact."""
+INSIDE = 0.8
+"""Half-widths that count as well inside the contact."""
 
 
 def time_unit(run: TransientSolution) -> tuple[float, str]:
@@ -256,8 +258,15 @@ def _window(run: TransientSolution) -> slice:
 
 
 def _largest_inside(run: TransientSolution, film: Array) -> float:
-    """Return the largest film [um] well inside the contact, of (steps, x) or (x,) along y = 0."""
-    return float(film[..., np.abs(run.start.scaled.x) < 0.8].max()) * MICRO
+    """Return the largest film [um] well inside the contact, of (steps, x) or (x,) along y = 0.
+
+    The contact of each step is as wide as load and radius have it; of (x,), all of them contain it.
+    """
+    power = 0.5 if run.start.problem.contact.has_lines else 1.0 / 3.0
+    width = (run.history.load * run.history.radius) ** power
+    width = width[:, None] if film.ndim > 1 else width.min()
+    inside = np.abs(run.start.scaled.x) < INSIDE * width
+    return float(film[inside].max()) * MICRO
 
 
 def passage(run: TransientSolution, *, title: bool | None = True) -> Figure:
