@@ -11,7 +11,7 @@ from tehl.contact.moment import SAMPLES, moments_of
 from tehl.contact.options import Options
 from tehl.estimate.domain import domain_of
 from tehl.estimate.duration import duration_of
-from tehl.estimate.in_time import films_of
+from tehl.estimate.in_time import Posed, films_of
 from tehl.estimate.line import line_error
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.settled import settled
@@ -51,15 +51,17 @@ def halvings(
     if others or problem.asperities is not None or not problem.contact.is_line or stride % 2:
         return ()
     options, intervals, found = settled(problem, options), nodes - 1, list[int]()
-    of_start = _errors_from(scaled, options, nodes)[0]
-    if not math.isfinite(of_start):  # the schedule refuses it
+    moments = moments_of(problem, duration_of(scaled))[::EACH]
+    films = films_of(scaled, domain_of(scaled, options), moments)
+    if films[0] is None:  # the schedule refuses it
         return ()
+    of_start = _errors(films, nodes)[0]
     most = PART_OF_ERROR * options.target
     known = most if bar is None else bar
     while stride % 2 == 0 and intervals % 2 == 0 and intervals >= 2 * LEAST_HALVED:
         stride, intervals = stride // 2, intervals // 2
-        errors = _errors_from(scaled, options, intervals + 1, later=True) / of_start
-        enough = known * errors <= most
+        errors = _errors(films, intervals + 1) / of_start
+        enough = known * np.maximum.accumulate(errors[::-1])[::-1] <= most
         first = math.ceil(int(np.argmax(enough)) * steps / (enough.size - 1))
         if not enough.any() or steps - first < LEAST_AFTER:
             break
@@ -84,13 +86,8 @@ def parts_of_run(
         nodes, stride = (nodes - 1) // 2 + 1, stride // 2
 
 
-def _errors_from(
-    scaled: ScaledProblem, options: Options, nodes: int, *, later: bool = False
-) -> Array:
-    """Return the errors by formula at the sampled moments, or the largest from each of them on."""
-    moments = moments_of(scaled.problem, duration_of(scaled))[::EACH]
-    films = films_of(scaled, domain_of(scaled, options), moments)
-    errors = np.array(
+def _errors(films: Sequence[Posed | None], nodes: int) -> Array:
+    """Return the errors by formula of the films of some moments, infinite where there is none."""
+    return np.array(
         [math.inf if one is None else line_error(one[0].groups, one[1], nodes) for one in films]
     )
-    return np.maximum.accumulate(errors[::-1])[::-1] if later else errors
