@@ -116,7 +116,8 @@ class Discretisation(Table):
     literature; ``"auto"`` takes the far field unless ``domain`` is stated."""
     wedge_order: Literal[1, 2, 3] | None = None
     """Order of the upstream difference of the wedge term; with 3 the conductance between two nodes
-    is their geometric mean too. Left out, it is 3 where ``extrapolate`` holds, else 2."""
+    is their geometric mean too. Left out, it is 3 where ``extrapolate`` holds, along rollers and
+    smooth lines, and where the error decides the nodes of rough contacts and runs, else 2."""
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -113,7 +113,8 @@ def _of_one_row(problem: ContactProblem, options: Options) -> Options:
             f"{points[0]}"
         )
     changes: dict[str, object] = {"extrapolate": bool(options.extrapolate)}
-    if options.wedge_order is None and options.extrapolate is None and _is_smooth(problem):
+    is_free = options.wedge_order is None and options.extrapolate is None
+    if is_free and (_is_smooth(problem) or (points != "auto" and not _is_uneven(problem))):
         changes["wedge_order"] = 3
     if options.error is None and points == "auto" and _is_smooth(problem):
         changes["error"] = HEATED_LINE_ERROR if problem.is_coupled else LINE_ERROR

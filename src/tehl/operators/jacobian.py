@@ -289,7 +289,7 @@ def _is_arithmetic(stencil: Stencil, way: int) -> bool:
 
 def _arithmetic(stencil: Stencil, here: Array, there: Array, way: int) -> Array:
     """Return the part of the arithmetic mean beside the geometric one."""
-    rises = np.where(way * (there - here) > 0.0, 1.0 / 3.0, 0.0)
+    rises = np.where(way * stencil.geometric * (there - here) > 0.0, 1.0 / 3.0, 0.0)
     return rises if way else np.full(here.shape, stencil.arithmetic)
 
 
