@@ -137,3 +137,13 @@ def test_lines_crowd_where_the_loaded_part_of_a_roller_ends():
         near = steps[(inside > 0.0) & (inside < 0.5 * width)]
         assert near.size > 3
         assert near.max() < 1.2 * near.min()
+
+
+@pytest.mark.parametrize("edges", [(1.0, 1.0), (0.9, 0.5)])
+def test_waves_limit_how_far_apart_lines_that_crowd_are(edges):
+    ends = Domain.model_construct(x=(-3.0, 1.5), y=(-1.0, 1.0))
+    c = crowding(0.02, edges, most_apart=1.7)
+    lines = Grid(nx=33, ny=513, domain=ends, mirror=False, crowding=c, edges=edges)
+    assert lines.largest_dy == pytest.approx(1.7 * lines.dy, rel=0.01)
+    assert crowding(0.02, edges) > c
+    assert crowding(0.02, edges, most_apart=0.9) == 0.0

@@ -58,6 +58,8 @@ class Grid:
     uniform everywhere if zero."""
     edges: tuple[float, float] = (1.0, 1.0)
     """e of both places: the loaded part is -e_1 < Y < e_2."""
+    most_apart: float = math.inf
+    """Largest distance of such lines in the loaded part over the mean one: waves limit it."""
 
     @property
     def dx(self) -> float:
@@ -68,6 +70,14 @@ class Grid:
     def dy(self) -> float:
         """Mesh width along y, in a_y, the mean one; that of a single row is the whole width."""
         return (self.domain.y[1] - self.domain.y[0]) / max(self.ny - 1, 1)
+
+    @property
+    def largest_dy(self) -> float:
+        """Largest distance of lines of the loaded part, in a_y."""
+        if not self.crowding:
+            return self.dy
+        y, (below, above) = self.y, self.edges
+        return float(np.diff(y[(y >= -below) & (y <= above)]).max())
 
     @property
     def points(self) -> tuple[int, int]:
@@ -212,27 +222,30 @@ def can_mirror(shape: tuple[int, int], domain: Domain) -> bool:
     return (coarsest.ny - 1) % 2 == 0 and domain.y[0] == -domain.y[1]
 
 
-def crowding(part: float, edges: tuple[float, float] = (1.0, 1.0)) -> float:
+def crowding(
+    part: float, edges: tuple[float, float] = (1.0, 1.0), most_apart: float = math.inf
+) -> float:
     """Return c of lines that crowd where the loaded part of a roller ends; zero if they do not.
 
     Parameters
     ----------
     part : float
         Distance of lines there over that of uniform ones; `LEAST_PART` at least.
-    edges : (float, float)
+    edges, most_apart : (float, float), float
         As of `Grid`.
     """
     part, low, high = max(part, LEAST_PART), 0.0, 8.0
-    if part >= 1.0:
+    if part >= 1.0 or most_apart <= 1.0:
         return 0.0
     for _ in range(PLACING_HALVINGS):
         found = 0.5 * (low + high)
-        low, high = (found, high) if closest(found, edges) > part else (low, found)
+        least, most = distances(found, edges)
+        low, high = (found, high) if least > part and most < most_apart else (low, found)
     return low
 
 
-def closest(crowding: float, edges: tuple[float, float]) -> float:
-    """Return the least distance of lines over that of uniform ones.
+def distances(crowding: float, edges: tuple[float, float]) -> tuple[float, float]:
+    """Return the least and the largest distance of lines of the loaded part over the mean one.
 
     Parameters
     ----------
@@ -241,8 +254,12 @@ def closest(crowding: float, edges: tuple[float, float]) -> float:
     """
     width = 2.0 / math.expm1(2.0 * crowding)
     below, middle, above = _number(np.array([-1.0, 0.0, 1.0]), width, edges)
+    sides = np.array([middle - below, above - middle])
     density = 1.0 / width + 1.0 / math.hypot(width, sum(edges))
-    return float(min(above - middle, middle - below) / density)
+    rarest = 0.5 * (edges[1] - edges[0])  # there the fewest lines are, of those on its side of 0
+    y = np.array([min(rarest, 0.0), max(rarest, 0.0)])
+    rare = 1.0 / np.hypot(width, edges[1] - y) + 1.0 / np.hypot(width, edges[0] + y)
+    return float(sides.min() / density), float((sides / rare).max())
 
 
 def _number(y: Array, width: float, edges: tuple[float, float]) -> Array:

@@ -1,10 +1,13 @@
 """Size of the domain and numbers of nodes of lines and rollers, proposed from their groups."""
 
 import math
+from dataclasses import replace
 
 from tehl.base.typing import np
 from tehl.contact.options import USUAL_PLAIN_ERROR, Domain, Options
 from tehl.contact.shape import LINE, Shape
+from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.grid import END_CELL, SHORTEST_CELL, Grid, crowding
 from tehl.estimate.scaling import Groups
 
 LINE_ERROR, HEATED_LINE_ERROR = 0.002, 0.005
@@ -12,6 +15,8 @@ LINE_ERROR, HEATED_LINE_ERROR = 0.002, 0.005
 thinning one, whose minimum is of first order behind the spike, some 100 ms."""
 LINE_ROUGH_NODES = 8192
 """Most nodes because of waves of the surfaces."""
+RAREST_PART = 0.25
+"""Least part of the lines on a wave along a roller, where those that crowd are rarest."""
 LEAST_LINE_INLET, INLET_ERROR_PART = 3.4, 0.15
 """Least distance of the inlet edge, in half-widths, and error by it over the error to reach."""
 WIDEST_INLET = 3.0
@@ -124,7 +129,7 @@ def line_points(groups: Groups, domain: Domain, error: float, least: float) -> i
 
 
 def roller_points(
-    groups: Groups, domain: Domain, options: Options, least: float, least_lines: float
+    groups: Groups, domain: Domain, options: Options, waves: tuple[float, float], *, crowds: bool
 ) -> tuple[int, int]:
     """Return the nodes along a roller's entrainment for an error of its middle, and the lines.
 
@@ -134,9 +139,12 @@ def roller_points(
         The contact, and the domain of the solve.
     options : Options
         Settled, with the error to reach.
-    least, least_lines : float
+    waves : (float, float)
         Nodes and lines that must be exceeded, for waves of the surfaces.
+    crowds : bool
+        Whether lines crowd at the ends of the roller.
     """
+    least, least_lines = waves
     factor = 1.0 if options.order > 2 else SECOND_ORDER_BAR
     bars = ((nodes, factor * line_bar(groups, domain, nodes)) for nodes in ROLLER_NODES)
     enough = (n for n, bar in bars if n > least and bar <= options.target)
@@ -145,5 +153,25 @@ def roller_points(
         parts = ((nodes - 1) * part // 4 + 1 for part in (1, 2, 4, 8))
         return nodes, next((lines for lines in parts if lines > least_lines), 4 * nodes - 3)
     fewest = max((nodes - 1) // 2, LEAST_ROWS)
-    times = (part * fewest + 1 for part in (1, 2, 4))
-    return nodes, next((lines for lines in times if lines > least_lines), 8 * fewest + 1)
+    times = [part * fewest + 1 for part in (1, 2, 4, 8)]
+    grids = [Grid(nx=nodes, ny=n, domain=domain, mirror=False) for n in times if n > least_lines]
+    if crowds:  # as close at the ends as without waves
+        both = [(crowded(groups, one), crowded(groups, one, least_lines)) for one in grids]
+        grids = [one for free, one in both if one.crowding == free.crowding]
+    return nodes, grids[0].ny if grids else times[-1]
+
+
+def crowded(groups: Groups, grid: Grid, wanted: float = 0.0) -> Grid:
+    """Return a grid of a roller with lines at its ends as close as the film there needs.
+
+    Parameters
+    ----------
+    groups, grid : Groups, Grid
+        Of the film that enters, and uniform nodes.
+    wanted : float
+        Uniform lines for waves of the surfaces, which limit how far those that crowd are apart.
+    """
+    cell = max(END_CELL * expected_central_film(groups) ** 0.5, SHORTEST_CELL)
+    least = cell * grid.dx / (groups.ellipticity * grid.dy)
+    apart = (grid.ny - 1) / (RAREST_PART * wanted) if wanted else math.inf
+    return replace(grid, crowding=crowding(least, most_apart=apart), most_apart=apart)

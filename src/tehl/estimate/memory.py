@@ -30,7 +30,9 @@ _LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_b
 """Memory limit of a container. Its usage is not read: it counts caches that can be dropped."""
 
 
-def needed_memory(options: Options, problem: ContactProblem | None = None) -> float:
+def needed_memory(
+    options: Options, problem: ContactProblem | None = None, *, crowds: bool = True
+) -> float:
     """Return the estimated peak memory of a solve [byte].
 
     Parameters
@@ -39,10 +41,12 @@ def needed_memory(options: Options, problem: ContactProblem | None = None) -> fl
         With the nodes of the finest grid stated.
     problem : ContactProblem or None
         Heat and time steps need more arrays per node; None is an isothermal steady film.
+    crowds : bool
+        Whether lines crowd at the ends of a roller that may have them so.
     """
     nodes_y, nodes_x = options.shape
     found = float(_bytes_per_node(problem) * nodes_y * nodes_x)
-    if problem is not None and crowds_at_ends(problem):
+    if crowds and problem is not None and crowds_at_ends(problem):
         stored = (nodes_y + 1) // 2 if problem.is_even_in_y else nodes_y
         found += BYTES_CROWDED * nodes_x * stored
     return found

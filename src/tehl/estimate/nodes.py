@@ -2,16 +2,21 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 
 from tehl.contact.options import Domain, Options
 from tehl.contact.shape import LINE
 from tehl.estimate.domain import domain_of, far_field_error
 from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film
-from tehl.estimate.grid import END_CELL, SHORTEST_CELL, Grid, can_mirror, crowding
+from tehl.estimate.grid import Grid, can_mirror
 from tehl.estimate.in_time import films_of_run, nodes_of_courses
-from tehl.estimate.line import LINE_ROUGH_NODES, line_bar, line_points, roller_points
+from tehl.estimate.line import (
+    LINE_ROUGH_NODES,
+    crowded,
+    line_bar,
+    line_points,
+    roller_points,
+)
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.settled import crowds_at_ends, raises_order, settled
 from tehl.estimate.starvation import is_starved, supplied_film, supply_ratio
@@ -243,8 +248,9 @@ def _points_of(
     """Return the nodes (nx, ny) of a steady contact, with at least ``steps`` along x."""
     kind = scaled.problem.contact
     if kind.has_lines and not kind.is_line:
-        least, lines = (min(one, ROUGH_NODES) for one in _nodes_of_waves(scaled, domain))
-        return roller_points(scaled.entering, domain, options, least, lines)
+        along, across = (min(one, ROUGH_NODES) for one in _nodes_of_waves(scaled, domain))
+        crowds = crowds_at_ends(scaled.problem)
+        return roller_points(scaled.entering, domain, options, (along, across), crowds=crowds)
 
     def enough(least: float) -> tuple[int, int]:
         if options.order > 2 and not kind.is_line:
@@ -429,6 +435,4 @@ def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=mirror, wraps=wraps)
     if not (grid.is_closed and crowds_at_ends(scaled.problem)):
         return grid
-    cell = max(END_CELL * expected_central_film(scaled.entering) ** 0.5, SHORTEST_CELL)
-    least = cell * grid.dx / (scaled.groups.ellipticity * grid.dy)
-    return replace(grid, crowding=crowding(least))
+    return crowded(scaled.entering, grid, _nodes_of_waves(scaled, domain)[1])

@@ -128,12 +128,10 @@ def _of_one_row(problem: ContactProblem, options: Options) -> Options:
 def crowds_at_ends(problem: ContactProblem) -> bool:
     """Return whether the lines of the grid crowd at the ends of a roller.
 
-    Heights, boundary contact and dynamics need uniform ones, and the film at the sharp ends of a
-    straight roller has no limit to resolve: only a film under a profile, smooth on the mesh, has
-    crowded ones, steady or in time.
+    Dynamics need uniform ones, and the film at the sharp ends of a straight roller has no limit to
+    resolve: only a film under a profile has crowded ones, steady or in time.
     """
-    is_profiled = problem.contact.profile is not None
-    return is_profiled and problem.dynamics is None and not _is_uneven(problem)
+    return problem.contact.profile is not None and problem.dynamics is None
 
 
 def _is_uneven(problem: ContactProblem) -> bool:

@@ -12,7 +12,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 from tehl.estimate.film_formulas import expected_central_film
-from tehl.estimate.grid import Grid, closest, crowding
+from tehl.estimate.grid import Grid, crowding, distances
 from tehl.estimate.scaling import Groups
 from tehl.operators.deformation import choose
 from tehl.operators.film import gap, rigid_motions
@@ -186,12 +186,12 @@ def at_loaded_ends(grid: Grid, groups: Groups) -> Grid:
     edges, ramp = _loaded_part(_searched(grid, groups), groups)
     if edges == grid.edges:
         return grid
-    longest, film = closest(grid.crowding, grid.edges), expected_central_film(groups)
+    longest, film = distances(grid.crowding, grid.edges)[0], expected_central_film(groups)
     steepness = 1.0 if max(edges) == 1.0 else groups.ellipticity * ramp / STEEP_END
     shortest = max(VALLEY_CELL * film ** (2.0 / 3.0), THICK_CELL * film)
     shortest *= grid.dx / (groups.ellipticity * grid.dy)
     part = min(max(longest * steepness, shortest), longest)
-    return replace(grid, edges=edges, crowding=crowding(part, edges))
+    return replace(grid, edges=edges, crowding=crowding(part, edges, grid.most_apart))
 
 
 def presses_as_edge(grid: Grid, groups: Groups) -> bool:

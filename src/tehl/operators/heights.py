@@ -54,9 +54,10 @@ class Heights:
         """Sum of both heights, ``grid.shape`` [-]."""
         return self.surface_1 + self.surface_2
 
-    def points_per_wave(self, grid: Grid) -> float:
-        """Return the nodes of ``grid`` per shortest wavelength."""
-        return min(self.wavelengths[0] / grid.dx, self.wavelengths[1] / grid.dy)
+    def points_per_wave(self, grid: Grid, *, rarest: bool = False) -> float:
+        """Return nodes of ``grid`` per shortest wave, of lines in the mean or where rarest."""
+        across = grid.largest_dy if rarest else grid.dy
+        return min(self.wavelengths[0] / grid.dx, self.wavelengths[1] / across)
 
     def on(self, grids: list[Grid]) -> list[Array]:
         """Return the heights on each of ``grids``, coarsest first, by repeated full weighting.
@@ -122,10 +123,10 @@ def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
         return None
     width, length = units_of(grid, scales)
     x, y = grid.x[None, :] * width, grid.y[:, None] * length
-    values, waves = [], []
+    values, waves, apart = [], [], grid.largest_dy * length
     parts: list[Roughness] = []
     for surface in problem.surfaces:
-        resolved = surface.roughness.resolved_on(grid.dx * width, grid.dy * length)
+        resolved = surface.roughness.resolved_on(grid.dx * width, apart)
         field = np.broadcast_to(resolved.height(x, y), grid.shape) / scales.film_thickness
         values.append(_joined(np.ascontiguousarray(field), grid))
         waves.append(resolved.shortest_wavelengths)
@@ -136,7 +137,7 @@ def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
     )
     # sampled surfaces are filtered to the grid; a formula would be aliased
     shortest = shortest_of_formulas(parts)
-    check_nodes(min(shortest[0] / (grid.dx * width), shortest[1] / (grid.dy * length)))
+    check_nodes(min(shortest[0] / (grid.dx * width), shortest[1] / apart))
     return heights
 
 
@@ -293,7 +294,7 @@ class MovingHeights:
         along = grid.dx * width * max(shift, 1.0)  # steps longer than a mesh width sample coarser
         resolved = []
         for part in components(roughness):
-            shown = part.resolved_on(along, grid.dy * length)
+            shown = part.resolved_on(along, grid.largest_dy * length)
             enters = self.front is not None and math.isinf(part.extent(length)[0][0])
             # waves fade in over a wavelength, other surfaces over eight mesh widths at least
             least = 0.0 if isinstance(part, HarmonicModel) else 8.0 * grid.dx * width

@@ -339,7 +339,10 @@ def _result(
         heights=_surfaces(run),
         resolution=resolution_of(
             scaled.problem,
-            (grid.dx * scaled.scales.half_width_x, grid.dy * units_of(grid, scaled.scales)[1]),
+            (
+                grid.dx * scaled.scales.half_width_x,
+                grid.largest_dy * units_of(grid, scaled.scales)[1],
+            ),
         ),
     )
 

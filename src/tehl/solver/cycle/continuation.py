@@ -110,7 +110,8 @@ class Roughness:
         finest = levels[-1].grid
         shape = self.levels[-1].equations.groups.shape
         inside = shape.radius_squared(finest.x, finest.y[:, None]) < 1.0
-        self.points, self.amplitude = points[-1], 0.5 * float(np.ptp(heights.together[inside]))
+        self.points = heights.points_per_wave(finest, rarest=True)
+        self.amplitude = 0.5 * float(np.ptp(heights.together[inside]))
 
     @property
     def is_rough(self) -> bool:

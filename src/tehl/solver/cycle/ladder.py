@@ -235,7 +235,8 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
         # Newton's method linearises neither partly filled cavities nor asperities below the grid
         by_cycles = problem.conserves_oil or problem.asperities is not None
         rungs = TOUCHING[:-1] if by_cycles else TOUCHING
-        return _of_third_order_first(problem, options, TOUCHING[:-1], rungs)
+        found = _of_third_order_first(problem, options, TOUCHING[:-1], rungs)
+        return _crowded_first(problem, found, CROWDED)
     if options.smoother != "auto":
         return (STATED[options.smoother],)
     if rough:
@@ -245,10 +246,16 @@ def ladder(scaled: ScaledProblem, options: Options, *, rough: bool) -> tuple[Str
     found = (first, *then, *others)
     if not (is_second or options.wedge_order is not None):
         return _with_third_order(scaled, found)
+    return _crowded_first(problem, found, max(1 + len(then), CROWDED))
+
+
+def _crowded_first(
+    problem: ContactProblem, rungs: tuple[Strategy, ...], number: int
+) -> tuple[Strategy, ...]:
+    """Return ``rungs`` on uniform lines behind a number of them on those that may crowd."""
     if not crowds_at_ends(problem):
-        return found
-    uniform = tuple(replace(one, crowds=False) for one in found)
-    return (*found[: max(1 + len(then), CROWDED)], *uniform)
+        return rungs
+    return (*rungs[:number], *(replace(one, crowds=False) for one in rungs))
 
 
 def _second(scaled: ScaledProblem) -> tuple[Strategy, ...]:
@@ -270,7 +277,7 @@ def _between_rough(scaled: ScaledProblem, options: Options) -> tuple[Strategy, .
     rungs = cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
     found = _of_third_order_first(problem, options, cycles[:THIRD_ORDER_STRATEGIES], rungs)
     is_held = problem.asperities is not None and shared_load(scaled).share > HELD_LOAD
-    return (HELD_APART, *found) if is_held else found
+    return _crowded_first(problem, (HELD_APART, *found) if is_held else found, CROWDED)
 
 
 def _of_third_order_first(

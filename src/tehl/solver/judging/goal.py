@@ -267,7 +267,7 @@ class Goal:
             return None
         lines = self.more_lines(level, errors)
         found = self._between(level, errors) if lines is None else (level.grid.nx, lines)
-        if found is None or self._needed(found) > self._left(level):
+        if found is None or self._needed(found, level) > self._left(level):
             return None
         nodes = math.prod(found)
         spent = working_time() - self._last
@@ -283,6 +283,8 @@ class Goal:
         If they do on none, and half the mesh width is out of reach, those with the finest.
         """
         grid = level.grid
+        if errors is not None and grid.is_closed and not self.may_refine(level, errors):
+            return 2 * grid.nx - 1, grid.ny
         if errors is None or not self.options.extrapolate:
             return None
         scarce = self.scaled.problem.supply is not None
@@ -301,7 +303,7 @@ class Goal:
         found = next((points for points in grids if points[0] > least), None)
         if found or self.may_refine(level, errors):
             return found
-        fits = [points for points in grids if self._needed(points) <= self._left(level)]
+        fits = [points for points in grids if self._needed(points, level) <= self._left(level)]
         return fits[-1] if fits else None
 
     def fewer_nodes(self, level: Level, errors: ErrorEstimate | None) -> tuple[int, int] | None:
@@ -333,11 +335,12 @@ class Goal:
 
     def _left(self, level: Level) -> float:
         """Return the memory beside what the grid of a level keeps until others end [byte]."""
-        return memory_limit(self.options) - RESTING_PART * self._needed(level.grid.points)
+        return memory_limit(self.options) - RESTING_PART * self._needed(level.grid.points, level)
 
-    def _needed(self, points: tuple[int, int]) -> float:
-        """Return the memory that a grid of nodes (nx, ny) needs [byte]."""
-        return needed_memory(self.options.on_points(*points), self.scaled.problem)
+    def _needed(self, points: tuple[int, int], level: Level) -> float:
+        """Return the memory that a grid of nodes (nx, ny) like that of a level needs [byte]."""
+        plan, crowds = self.options.on_points(*points), level.grid.crowding > 0.0
+        return needed_memory(plan, self.scaled.problem, crowds=crowds)
 
     def may_refine(self, level: Level, errors: ErrorEstimate | None = None) -> bool:
         """Return whether a grid of twice the intervals may follow; if not, `obstacle` says why.
@@ -352,7 +355,7 @@ class Goal:
         nx, ny = (2 * (n - 1) + 1 for n in level.grid.points)
         now, limit = working_time(), self.options.max_time
         expected = FACTOR * (now - self._last)
-        needed = self._needed((nx, ny))
+        needed = self._needed((nx, ny), level)
         available, supply = memory_limit(self.options), supply_error(self.scaled)
         self.obstacle = self.advice = ""
         least = math.inf if errors is None else errors.central / UNREFINED

@@ -86,7 +86,7 @@ def check_waves(heights: MovingHeights, grid: Grid, schedule: Schedule, stride: 
         Mesh widths that the mean motion passes per step.
     """
     along, across = heights.wavelengths
-    check_nodes(min(along / grid.dx, across / grid.dy))
+    check_nodes(min(along / grid.dx, across / grid.largest_dy))
     fastest = np.abs([one.speeds for one in schedule.moments]).max(axis=0)
     for name, waves, speed in zip(
         ("surface_1", "surface_2"), heights.waves_per_length, fastest, strict=True
