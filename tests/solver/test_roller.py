@@ -456,3 +456,17 @@ def test_the_first_strategy_solves_the_first_grid_of_a_tilted_roller_under_load(
     stated = {"moes_speed": 1.7, "length": "3.56 mm", "tilt": 1.3e-5, "profile": LOGARITHMIC}
     found = tehl.solve(roller(78.0, **stated), Options(points=(257, 129), wedge_order=3))
     assert {one.smoother for one in found.history} == {"fast"}
+
+
+def test_lines_that_waves_hold_apart_claim_no_smallest_film():
+    wave = {"type": "wave", "amplitude": "0.1 nm", "wavelength": "1 mm", "angle": "60 deg"}
+    rough = roller(20.0, profile={"shape": "lundberg"}, surface_2=STEEL | {"roughness": wave})
+    found = tehl.solve(rough, Options(points=(129, 65)))
+    assert found.status.cause == "minimum_film_and_largest_pressure_open"
+    assert "too few lines only" in found.status.message
+    assert not found.errors.minimum_has_limit
+    assert "numerics.points = [129, 257]" in found.status.hint.advice
+    more = tehl.solve(rough, Options(points=(129, 257)))
+    smooth = tehl.solve(roller(20.0, profile={"shape": "lundberg"}), Options(points=(129, 257)))
+    assert more.status.cause is None
+    assert more.film_scaled.minimum == pytest.approx(smooth.film_scaled.minimum, rel=0.05)

@@ -30,19 +30,15 @@ from tehl.solver.judging.diagnosis import (
     not_reached,
     thinnest,
 )
+from tehl.solver.judging.ends import missed_at_ends, pressed_at_end, thinnest_at_end
 from tehl.solver.judging.film_errors import misses_ends
 from tehl.solver.judging.film_summary import film_summary
-from tehl.solver.judging.measures import ends_of, is_resolved, is_thinnest_at_end
+from tehl.solver.judging.measures import is_resolved, is_thinnest_at_end
 from tehl.solver.judging.outputs import asperity_balance, contact_balance, heat_balance
 
 CONVERGED = Status(kind="converged")
 TOO_COARSE = ("grid_too_coarse", "film_not_positive")
 """Causes that a finer grid removes."""
-RELIEVE = Hint(
-    "Relieve the ends: a profile with a larger drop, such as that of contact.profile.shape = "
-    '"lundberg" or "crown", less tilt, or less load.'
-)
-"""What to try where a sharp end of a roller is loaded."""
 LARGEST_FILM_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is too coarse."""
 UNKNOWN_MINIMUM_ERROR = 1.0
@@ -139,66 +135,11 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     if error > LARGEST_FILM_BAR:
         return too_coarse(points, run.hierarchy.scaled, error)
     if misses_ends(level, run.hierarchy):
-        return _missed_at_ends(level)
+        return missed_at_ends(level)
     if is_thinnest_at_end(level):
-        return _thinnest_at_end(level, is_pressed=not errors.pressure_has_limit)
+        return thinnest_at_end(level, is_pressed=not errors.pressure_has_limit)
     is_open = not (errors.minimum_has_limit and errors.pressure_has_limit)
-    return _pressed_at_end(level, thins=not errors.minimum_has_limit) if is_open else CONVERGED
-
-
-def _missed_at_ends(level: Level) -> Status:
-    """Return ``converged`` with a warning: uniform lines miss what happens at the ends."""
-    smallest, largest = level.film.h.min(), level.film.p.max()
-    return Status(
-        kind="converged",
-        cause="minimum_film_and_largest_pressure_open",
-        message=(
-            "The cycles converged on uniform lines only, which do not have the thin film and the "
-            "high pressure at the ends of this roller: the minimum film "
-            f"(here H = {smallest:.3g}) and the largest pressure (here {largest:.3g} p_h) have no "
-            "error bar."
-        ),
-        hint=RELIEVE,
-    )
-
-
-def _thinnest_at_end(level: Level, *, is_pressed: bool) -> Status:
-    """Return ``converged`` with a warning: the minimum lies at a sharp end under pressure.
-
-    ``is_pressed``: the largest pressure lies at an end too.
-    """
-    smallest, _, y = thinnest(level)
-    pressed = f" Nor has the largest pressure, {level.film.p.max():.3g} p_h." if is_pressed else ""
-    return Status(
-        kind="converged",
-        cause="minimum_film_and_largest_pressure_open" if is_pressed else None,
-        message=(
-            f"The film is thinnest (H = {smallest:.3g}) at the sharp end Y = {y:.3g} of the roller "
-            "under a pressure that grows with each finer grid: the minimum film has no limit, and "
-            f"no error bar.{pressed}"
-        ),
-        hint=RELIEVE,
-    )
-
-
-def _pressed_at_end(level: Level, *, thins: bool = False) -> Status:
-    """Return ``converged`` with a warning: the largest pressure is that of a sharp end.
-
-    ``thins``: the film there becomes the thinnest on finer grids.
-    """
-    pressures = level.film.p.max(axis=1)
-    row = max(ends_of(level), key=lambda end: float(pressures[end]))
-    opens = ", and the film gets thinner: neither has a limit, or an" if thins else ""
-    return Status(
-        kind="converged",
-        cause=f"{'minimum_film_and_' if thins else ''}largest_pressure_open",
-        message=(
-            f"The pressure is largest ({pressures[row]:.3g} p_h) at the sharp end "
-            f"Y = {level.grid.y[row]:.3g} of the roller, where it grows with each finer "
-            f"grid{opens or ': it has no limit, and no'} error bar."
-        ),
-        hint=RELIEVE,
-    )
+    return pressed_at_end(level, thins=not errors.minimum_has_limit) if is_open else CONVERGED
 
 
 def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
@@ -213,10 +154,13 @@ def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
         return CONVERGED
     if errors.iteration_minimum >= 1.0:
         return not_reached(run)  # further cycles might make the minimum negative
-    error, part = errors.discretisation_minimum, run.minimum_part()
+    misses, part = misses_ends(level, run.hierarchy), run.minimum_part()
+    error = 0.0 if misses else errors.discretisation_minimum
     if not max(part * error, errors.discretisation_central) <= LARGEST_FILM_BAR:
         largest = max(error, errors.discretisation_central)
         return too_coarse(level.grid.points, run.hierarchy.scaled, largest)
+    if misses:
+        return missed_at_ends(level)
     return _minimum_open(level, error) if error > UNKNOWN_MINIMUM_ERROR else CONVERGED
 
 
