@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from tehl.solver.cost import Clock
 from tehl.solver.judging import goal
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient import run
-from tehl.solver.transient.endings import step_not_settled
+from tehl.solver.transient.endings import step_not_settled, time_over
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import pack, unpack
 from tehl.solver.transient.step import StepError
@@ -481,6 +482,12 @@ def test_a_run_ends_at_the_time_that_is_stated_and_continues_from_there(monkeypa
     whole = solve_transient(case, OPTIONS, resume=kept[-1])
     assert whole.status.converged
     assert whole.history.film_central[:4] == pytest.approx(run.history.film_central, rel=0.0)
+
+
+def test_the_time_that_a_hint_gives_counts_the_start_once():
+    clock = Mock(start=50.0, cost=lambda: Mock(wall_seconds=60.0))
+    status = time_over(Options(max_time=60.0), clock, (10, 100), 1e-3)
+    assert status.hint.settings == {"numerics.max_time": "200 s"}  # 50 + 1.5 * 10 * 10
 
 
 @pytest.mark.parametrize(("cause", "change"), [("stalled", 1e-3), ("diverged", 1e-9)])

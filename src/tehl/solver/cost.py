@@ -29,8 +29,12 @@ class Clock:
     """
 
     def __init__(self, until: float = math.inf) -> None:
-        self.before, self.until = NO_COST, until
+        self.before, self.until, self.start = NO_COST, until, 0.0
         self._wall, self._cpu = time.perf_counter(), time.process_time()
+
+    def end_start(self) -> None:
+        """Note that what comes before the steps of a run has ended: ``start`` is its time [s]."""
+        self.start = time.perf_counter() - self._wall
 
     @property
     def is_over(self) -> bool:

@@ -6,16 +6,17 @@ import numpy as np
 
 from tehl.base.wording import grid_size
 from tehl.contact.moment import frozen
+from tehl.contact.options import Options
 from tehl.estimate.scaling import ScaledProblem
-from tehl.result.solution import Hint, Solution, Status
+from tehl.result.solution import Hint, Status
 from tehl.result.transient import TIME_OVER
+from tehl.solver.cost import Clock
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.diagnosis import cause_by_the_oil
 from tehl.solver.transient.step import StepError, Stepper
 
-SPARE_TIME = 2.0
-"""Time that a hint gives to the steps over what they are expected to take: half of it may go to the
-start."""
+SPARE_TIME = 1.5
+"""Time that a hint gives to the steps over what they take so far: later ones may take longer."""
 NEARLY_CONVERGED = 1e-6
 """Change of P in the last cycle of a time step that only a tight tolerance rejects."""
 
@@ -62,13 +63,13 @@ def step_not_settled(stepper: Stepper, error: StepError, seconds: float) -> Stat
     )
 
 
-def time_over(start: Solution, spent: float, ended: tuple[int, int], seconds: float) -> Status:
+def time_over(options: Options, clock: Clock, ended: tuple[int, int], seconds: float) -> Status:
     """Return ``time_over`` of a run; the hint is to the time that it takes.
 
     Parameters
     ----------
-    start, spent : Solution, float
-        The film at time zero, and the time of the run so far [s].
+    options, clock : Options, Clock
+        With the limit of the time, and the time of the run so far.
     ended : (int, int)
         Steps that ended, and all of the run.
     seconds : float
@@ -77,8 +78,8 @@ def time_over(start: Solution, spent: float, ended: tuple[int, int], seconds: fl
     advice, settings = "Take a longer numerics.max_time, or ", {}
     steps, of_all = ended
     if steps:
-        began = start.cost.wall_seconds
-        needed = began + SPARE_TIME * (spent - began) * of_all / steps
+        spent = clock.cost().wall_seconds
+        needed = clock.start + SPARE_TIME * (spent - clock.start) * of_all / steps
         unit = 10.0 ** (math.floor(math.log10(needed)) - 1)
         settings = {"numerics.max_time": f"{unit * math.ceil(needed / unit):g} s"}
         advice = "the run takes less at its speed so far; or take "
@@ -86,7 +87,7 @@ def time_over(start: Solution, spent: float, ended: tuple[int, int], seconds: fl
         kind="not_converged",
         cause=TIME_OVER,
         message=(
-            f"numerics.max_time = {start.options.max_time:g} s is over at "
+            f"numerics.max_time = {options.max_time:g} s is over at "
             f"{steps * seconds:.4g} of {of_all * seconds:.4g} s of the run. The "
             "steps until then are kept."
         ),

@@ -136,6 +136,7 @@ class Run:
         self.stepper = self._stepper(attempt.run)
         self.halvings = () if one_grid else self._halvings(options)
         self.record = Record()
+        self.clock.end_start()
         self._note(0, self.heights.at(0.0, self.schedule.places(0)), None)
 
     @property
@@ -238,8 +239,8 @@ class Run:
         for step in range(len(self.record.rows), self.steps + 1):
             time_now = step * self.seconds
             if self.clock.is_over:
-                spent = self.clock.cost().wall_seconds
-                return time_over(self.start, spent, (step - 1, self.steps), self.seconds)
+                ended = step - 1, self.steps
+                return time_over(self.start.options, self.clock, ended, self.seconds)
             for _ in range(self.halvings.count(step)):
                 self._go_coarser()
             heights = self.heights.at(time_now, self.schedule.places(step))
