@@ -247,7 +247,8 @@ def test_the_end_of_a_roller_is_resolved_between_rough_surfaces_and_boundary_fil
     smooth = tehl.solve(roller(20.0, profile=profile), on).film_scaled
     wave = {"type": "wave", "amplitude": "0.1 nm", "wavelength": "1 mm", "angle": "90 deg"}
     rough = roller(20.0, profile=profile, surface_2=STEEL | {"roughness": wave})
-    assert tehl.solve(rough, on).film_scaled.minimum == pytest.approx(smooth.minimum, rel=0.01)
+    found = tehl.solve(rough, on)
+    assert found.film_scaled.minimum == pytest.approx(smooth.minimum, rel=0.01)
     tables = roller(20.0, profile=profile).model_dump(exclude_none=True)
     thin = tehl.ContactProblem.model_validate(tables | {"contact_film": {"thickness": "1 nm"}})
     assert tehl.solve(thin, on).film_scaled.minimum == pytest.approx(smooth.minimum, rel=0.06)
@@ -470,3 +471,11 @@ def test_lines_that_waves_hold_apart_claim_no_smallest_film():
     smooth = tehl.solve(roller(20.0, profile={"shape": "lundberg"}), Options(points=(129, 257)))
     assert more.status.cause is None
     assert more.film_scaled.minimum == pytest.approx(smooth.film_scaled.minimum, rel=0.05)
+
+
+def test_the_pressure_at_a_sharp_end_is_open_between_rough_surfaces_too():
+    wave = {"type": "wave", "amplitude": "1 nm", "wavelength": "1 mm"}
+    tilted = {"profile": LOGARITHMIC, "tilt": 2e-4}
+    both = roller(20.0, **tilted), roller(20.0, **tilted, surface_2=STEEL | {"roughness": wave})
+    smooth, rough = (tehl.solve(one, Options(points=(129, 129))).status for one in both)
+    assert smooth.cause == rough.cause == "largest_pressure_open"

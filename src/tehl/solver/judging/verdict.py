@@ -134,6 +134,12 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
         error = max(error, errors.discretisation_minimum)
     if error > LARGEST_FILM_BAR:
         return too_coarse(points, run.hierarchy.scaled, error)
+    return _ends_status(run, errors)
+
+
+def _ends_status(run: FilmSolver, errors: ErrorEstimate) -> Status:
+    """Return ``converged``, with a warning where the ends of a roller leave a value open."""
+    level = run.finest
     if misses_ends(level, run.hierarchy):
         return missed_at_ends(level)
     if is_thinnest_at_end(level):
@@ -154,14 +160,14 @@ def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
         return CONVERGED
     if errors.iteration_minimum >= 1.0:
         return not_reached(run)  # further cycles might make the minimum negative
-    misses, part = misses_ends(level, run.hierarchy), run.minimum_part()
-    error = 0.0 if misses else errors.discretisation_minimum
+    error = errors.discretisation_minimum if errors.minimum_has_limit else 0.0
+    part = run.minimum_part()
     if not max(part * error, errors.discretisation_central) <= LARGEST_FILM_BAR:
         largest = max(error, errors.discretisation_central)
         return too_coarse(level.grid.points, run.hierarchy.scaled, largest)
-    if misses:
-        return missed_at_ends(level)
-    return _minimum_open(level, error) if error > UNKNOWN_MINIMUM_ERROR else CONVERGED
+    if error > UNKNOWN_MINIMUM_ERROR:
+        return _minimum_open(level, error)
+    return _ends_status(run, errors)
 
 
 def _minimum_open(level: Level, error: float) -> Status:
