@@ -21,7 +21,10 @@ from tehl.io.templates import template_text
 from tehl.operators.dry import at_loaded_ends, dry_pressure
 from tehl.plots import pressure_map
 from tehl.plots.frame import pressure_top
+from tehl.result.bars import ErrorEstimate
+from tehl.solver.judging.film_errors import _lost_between_lines
 from tehl.solver.judging.film_summary import film_summary
+from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.measures import SAMPLED, side_reach
 
 STEEL = {"material": "steel"}
@@ -479,3 +482,32 @@ def test_the_pressure_at_a_sharp_end_is_open_between_rough_surfaces_too():
     both = roller(20.0, **tilted), roller(20.0, **tilted, surface_2=STEEL | {"roughness": wave})
     smooth, rough = (tehl.solve(one, Options(points=(129, 129))).status for one in both)
     assert smooth.cause == rough.cause == "largest_pressure_open"
+
+
+def test_a_roller_takes_more_columns_where_its_lines_fill_the_memory():
+    """They do not where more columns do not help, or the mesh may be halved."""
+    scaled = ScaledProblem.of(roller(profile={"shape": "lundberg"}))
+    grid = at_loaded_ends(finest_grid(scaled, Options(points=(257, 1025))), scaled.groups)
+    mesh = ErrorEstimate(
+        discretisation_central=0.05,
+        discretisation_minimum=0.05,
+        iteration_central=0.0,
+        iteration_minimum=0.0,
+        domain=0.0,
+    )
+    outside = replace(mesh, discretisation_central=0.0, discretisation_minimum=0.0, domain=0.1)
+    found = []
+    for memory, errors in ((1e9, mesh), (1e9, outside), (1e11, mesh)):
+        goal = Goal(scaled=scaled, options=Options(error=0.02, max_memory=memory))
+        found.append(goal.other_nodes(Mock(grid=grid), errors))
+    assert found == [(513, 1025), None, None]
+
+
+def test_waves_fade_where_lines_that_crowd_are_rarest():
+    ends = Domain.model_construct(x=(-1.6, 1.6), y=(-1.0, 1.0))
+    grid = Grid(nx=33, ny=65, domain=ends, mirror=False, crowding=2.0)
+    level = Mock(grid=grid, film=Mock(h=np.full(grid.shape, 0.2)))
+    waves = Mock(amplitude=0.01, points=5.0)
+    assert _lost_between_lines(level, waves) == pytest.approx(0.01 / (0.2 * 25.0))
+    even = Mock(grid=replace(grid, crowding=0.0), film=level.film)
+    assert _lost_between_lines(even, waves) == 0.0

@@ -114,7 +114,9 @@ def _of_one_row(problem: ContactProblem, options: Options) -> Options:
         )
     changes: dict[str, object] = {"extrapolate": bool(options.extrapolate)}
     is_free = options.wedge_order is None and options.extrapolate is None
-    if is_free and (_is_smooth(problem) or (points != "auto" and not _is_uneven(problem))):
+    # where the error decides the nodes of a transient run, second order stays behind it
+    decided = problem.transient is not None and points == "auto"
+    if is_free and not (_is_uneven(problem) or decided):
         changes["wedge_order"] = 3
     if options.error is None and points == "auto" and _is_smooth(problem):
         changes["error"] = HEATED_LINE_ERROR if problem.is_coupled else LINE_ERROR

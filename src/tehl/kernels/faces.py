@@ -29,9 +29,9 @@ class Stencil(NamedTuple):
     step what a cell holds does not depend on the present of others.
     ``third`` is zero, or 1/3 of ``1/dx``: the weight of the third difference that makes a wedge of
     second order one of third order. From column ``fore`` on, behind the centre, half of it is
-    added: all of it overshoots at the pressure spike. ``geometric`` is 1, or -1
-    where the film moves against x, if the conductance along x has geometric means: with a wedge of
-    third order, and in the time steps from its film.
+    added: all of it overshoots at the pressure spike. ``geometric`` is 1, or -1 where the film
+    moves against x, if the conductance along x has geometric means: with a wedge of third order,
+    and in the time steps from its film.
     ``arithmetic`` is the part of the arithmetic mean of the conductance along y beside the
     geometric one: a third makes it nearly a logarithmic one, on rollers that of the mobilities
     (`opening_power`). Relaxation keeps the wedge of second order, which has the larger diagonal.

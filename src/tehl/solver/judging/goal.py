@@ -253,8 +253,8 @@ class Goal:
     def other_nodes(self, level: Level, errors: ErrorEstimate | None) -> tuple[int, int] | None:
         """Return nodes (nx, ny) of another grid that is expected to reach the error; None if none.
 
-        It has more lines alone, or a mesh between that of the last grid and half of it, and more
-        nodes than those that were named before.
+        It has more lines or more columns alone, or a mesh between that of the last grid and half of
+        it, and more nodes than those that were named before.
 
         Parameters
         ----------
@@ -266,7 +266,8 @@ class Goal:
         if self._others == MOST_OTHERS:
             return None
         lines = self.more_lines(level, errors)
-        found = self._between(level, errors) if lines is None else (level.grid.nx, lines)
+        found = (level.grid.nx, lines) if lines else self._more_columns(level, errors)
+        found = found or self._between(level, errors)
         if found is None or self._needed(found, level) > self._left(level):
             return None
         nodes = math.prod(found)
@@ -277,14 +278,26 @@ class Goal:
         self._others, self._most = self._others + 1, nodes
         return found
 
+    def _more_columns(self, level: Level, errors: ErrorEstimate | None) -> tuple[int, int] | None:
+        """Return nodes (nx, ny) of a roller with columns half as far apart; None if none help.
+
+        Where half the mesh width is out of reach: its lines are close at its ends already. Of 15
+        rough rollers two reach 2 % so (M = 7), where twice the lines do not fit into the memory.
+        """
+        nx, ny = level.grid.points
+        finer = 2 * nx - 1
+        if errors is None or not level.grid.is_closed or finer > MOST_NODES_PER_AXIS:
+            return None
+        if _over_left(errors, self.target) is None or self.may_refine(level, errors):
+            return None
+        return finer, ny
+
     def _between(self, level: Level, errors: ErrorEstimate | None) -> tuple[int, int] | None:
         """Return nodes (nx, ny) with a mesh on which bars of second order meet the goal.
 
         If they do on none, and half the mesh width is out of reach, those with the finest.
         """
         grid = level.grid
-        if errors is not None and grid.is_closed and not self.may_refine(level, errors):
-            return 2 * grid.nx - 1, grid.ny
         if errors is None or not self.options.extrapolate:
             return None
         scarce = self.scaled.problem.supply is not None

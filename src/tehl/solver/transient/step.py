@@ -144,7 +144,7 @@ class Stepper:
             coupling.begin_step(moment, moved)
         self.solver.hierarchy.coarsest.begin_step()
         history, start = self.oil.brought(number), level.state()
-        self._face(moment.speed)
+        self._turn_means(moment.speed)
         equations = self.equations.at(moment, self.solver.hierarchy.scaled)
         first = self.setting
         for chosen in range(first, len(self.settings)):
@@ -183,7 +183,7 @@ class Stepper:
             threshold = max(setting.threshold, least)
             level.set_relaxation(replace(setting, threshold=threshold))
 
-    def _face(self, speed: float) -> None:
+    def _turn_means(self, speed: float) -> None:
         """Turn the means of the conductance with the film: they differ where it rises on the way.
 
         Else a film that has turned is not the mirror image of its start, by the error of 2nd order.
