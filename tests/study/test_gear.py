@@ -9,6 +9,9 @@ import pytest
 from tehl import InputError
 from tehl.api.problem import ContactProblem
 from tehl.contact.moment import moment_at
+from tehl.contact.options import Options
+from tehl.estimate.duration import MOST_TIME_STEPS
+from tehl.report.explain import explain
 from tehl.studies.gear import FlatCam, SpurGears
 
 STEEL = {"material": "steel"}
@@ -89,3 +92,22 @@ def test_a_cam_turns_its_entrainment_twice():
     assert here["sliding_speed"] == pytest.approx(cam_speed - follower, rel=1e-6)
     with pytest.raises(InputError, match="both must be positive"):
         replace(cam, base_radius=5e-3).at(0.0)
+
+
+def test_a_whole_turn_of_a_cam_is_planned_on_the_nodes_of_its_thick_film():
+    """On the 513 of steady lines it took 38,000 steps, and was refused."""
+    cam = FlatCam(
+        base_radius=18e-3,
+        lift=5e-3,
+        half_angle=math.radians(75.0),
+        width=14e-3,
+        speed=1000.0 * 2.0 * math.pi / 60.0,
+        spring=(150.0, 30e3),
+        mass=0.12,
+    )
+    steel, tables = {"surface_1": STEEL, "surface_2": STEEL}, cam.tables(math.pi, 361)
+    run = ContactProblem(lubricant=OIL, **steel, **tables)
+    still = run.model_copy(update={"transient": None})
+    moving, steady = (explain(one, Options(error=0.02)) for one in (run, still))
+    assert moving.options.shape < steady.options.shape
+    assert moving.time.steps < MOST_TIME_STEPS

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
+from operator import itemgetter
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -44,7 +45,7 @@ class Course:
         if self.formula is not None:
             return float(self.formula(time))
         table = self.table
-        after = bisect_right([moment for moment, _ in table], time)
+        after = bisect_right(table, time, key=itemgetter(0))
         if after in (0, len(table)):
             return table[min(after, len(table) - 1)][1]
         (start, value), (end, next_value) = table[after - 1 : after + 1]

@@ -33,8 +33,10 @@ MENISCUS_GAP, LARGEST_SUPPLY = 4.0, 0.995
 """Gap that holds the meniscus, over the film and 1 - r, and largest r for which it does."""
 ZERO_EDGE_ERROR = 2.0
 """Error by zero pressure there, of power 3: one to two times what wider domains show."""
-LINE_BAR, LINE_NODES = 0.06, tuple(2**k * n + 1 for k in range(5, 10) for n in (16, 20, 24, 28))
-"""Error of the film over M h^2, and numbers of nodes: on fewer a solve is hardly cheaper."""
+LINE_BAR, LINE_NODES = 0.06, tuple(2**k * n + 1 for k in range(3, 10) for n in (16, 20, 24, 28))
+"""Error of the film over M h^2, and numbers of nodes."""
+FEWEST_OF_STEADY = 512
+"""What the nodes of a steady line exceed: on fewer a solve is hardly cheaper."""
 LINE_MINIMUM_BAR, HEAVY_LINE = 0.028, 80.0
 """Error of the minimum film, behind the spike, over (M h)^1.5: within a factor of 2.5 for nine
 lines with M = 18 to 80, L = 10 to 13 on 513 to 4097 nodes, heated, thinning or neither; and M of

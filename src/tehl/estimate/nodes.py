@@ -11,6 +11,7 @@ from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.grid import Grid, can_mirror
 from tehl.estimate.in_time import films_of_run, nodes_of_courses
 from tehl.estimate.line import (
+    FEWEST_OF_STEADY,
     LINE_ROUGH_NODES,
     crowded,
     line_bar,
@@ -213,10 +214,12 @@ def planned(scaled: ScaledProblem, options: Options, *, of_central: bool = False
     domain = domain_of(scaled, options)
     if raises_order(scaled.problem, options):
         options = options.model_copy(update={"wedge_order": 3})
-    steps = nodes_of_courses(scaled, domain, options.target)
+    least = nodes_of_courses(scaled, domain, options.target)
+    if scaled.problem.contact.is_line and scaled.problem.transient is None:
+        least = FEWEST_OF_STEADY
     films = films_of_run(scaled, domain)
     return options.on_points(
-        *max(_points_of(one, own, options, steps, of_central=of_central) for one, own in films)
+        *max(_points_of(one, own, options, least, of_central=of_central) for one, own in films)
     )
 
 
@@ -241,11 +244,11 @@ def _points_of(
     scaled: ScaledProblem,
     domain: Domain,
     options: Options,
-    steps: float,
+    least: float,
     *,
     of_central: bool = False,
 ) -> tuple[int, int]:
-    """Return the nodes (nx, ny) of a steady contact, with at least ``steps`` along x."""
+    """Return the nodes (nx, ny) of a steady contact, more than ``least`` along x."""
     kind = scaled.problem.contact
     if kind.has_lines and not kind.is_line:
         along, across = (min(one, ROUGH_NODES) for one in _nodes_of_waves(scaled, domain))
@@ -268,9 +271,9 @@ def _points_of(
         return nodes, nodes
 
     if kind.is_line:
-        least = max(_nodes_of_waves(scaled, domain)[0], steps)
+        least = max(_nodes_of_waves(scaled, domain)[0], least)
         return enough(min(least, LINE_ROUGH_NODES))[0], 1
-    return _points_of_waves(scaled, domain, steps, enough)
+    return _points_of_waves(scaled, domain, least, enough)
 
 
 def _third_order_points(
