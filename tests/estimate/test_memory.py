@@ -1,5 +1,7 @@
 """Memory that a solve needs against memory that is available."""
 
+import tomllib
+
 import pytest
 
 from tehl.base.errors import InputError
@@ -11,6 +13,8 @@ from tehl.estimate.memory import (
     memory_limit,
     needed_memory,
 )
+from tehl.io.case import case_from_tables
+from tehl.io.templates import template_text
 
 
 def test_the_memory_of_the_machine_is_found():
@@ -22,6 +26,21 @@ def test_the_memory_of_the_machine_is_found():
 def test_needed_memory_grows_with_the_nodes():
     small, large = needed_memory(Options(points=129)), needed_memory(Options(points=(257, 129)))
     assert large / small == pytest.approx(257 / 129)
+
+
+@pytest.mark.parametrize(
+    ("dropped", "measured"), [((), 753), (("asperities",), 664), (("thermal",), 275)]
+)
+def test_needed_memory_is_what_solves_took(dropped: tuple[str, ...], measured: float):
+    """On 769 x 769 nodes, per node; heat between asperities needed more than was planned."""
+    case = tomllib.loads(template_text("mixed")) | {"thermal": {}}
+    for name in dropped:
+        del case[name]
+    del case["lubricant"]["shear"]
+    case["lubricant"] |= {"conductivity": 0.14, "heat_capacity": 2000.0}
+    problem, _ = case_from_tables(case)
+    needed = needed_memory(Options(points=769), problem)
+    assert measured < needed / 769**2 < 1.1 * measured
 
 
 @pytest.mark.parametrize("available", [None, 1e12])
