@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from tehl.base.typing import Array
 from tehl.contact.options import Domain
 from tehl.contact.roller import Roller
+from tehl.contact.shape import LINE
 from tehl.estimate.grid import Grid
 from tehl.operators.crowded import CrowdedDeformation
 from tehl.operators.deformation import (
@@ -164,6 +165,19 @@ def test_the_dry_gap_vanishes_in_a_contact_of_any_ellipticity(ratio):
 )
 def test_auto_sums_by_lines_on_few_lines(across, mirror, method):
     assert isinstance(choose("auto", grid_of(257, across, mirror=mirror), contact_groups()), method)
+
+
+@pytest.mark.parametrize(("nodes", "method"), [(129, DirectDeformation), (257, LineDeformation)])
+def test_auto_sums_a_line_directly_on_few_nodes(nodes, method):
+    numbers = replace(contact_groups(), radius_ratio=0.0)  # a line
+    grid = Grid(nx=nodes, ny=1, domain=Domain(x=(-4.0, 4.0), y=LINE.sides), mirror=False)
+    auto = choose("auto", grid, numbers)
+    assert isinstance(auto, method)
+    pressure = np.sqrt(np.maximum(1.0 - grid.x[None, :] ** 2, 0.0))
+    found, exact = np.empty((2, 1, nodes))
+    auto.deflect(pressure, found)
+    LineDeformation(grid, numbers).deflect(pressure, exact)
+    np.testing.assert_allclose(found, exact, atol=1e-13)
 
 
 @pytest.mark.parametrize("ratio", [0.02, 10.0, 60.0])

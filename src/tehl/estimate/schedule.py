@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -15,7 +14,7 @@ from tehl.contact.moment import Moment, courses_of, moment_at, timeline
 from tehl.contact.transient import MOTION
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.spin import spin_number, spins
-from tehl.estimate.ways import Velocity, Way, steady_way, way_of
+from tehl.estimate.ways import Way, parts_of_step, steady_way, way_of
 
 Ways = tuple[Way, Way, Way]
 """Of the mean motion and of both surfaces."""
@@ -142,21 +141,14 @@ def _ways(
     scaled: ScaledProblem, at: Callable[[float], Moment], step: float, times: list[float]
 ) -> tuple[Ways, ...]:
     """Return the ways of `Schedule` for steps [a_x / u_m] at times [s]."""
-    turning = spins(scaled)
+    turning, parts = spins(scaled), parts_of_step()
     ways = [(Way(0.0), Way(0.0), Way(0.0))]
     for start, end in pairwise(times):
+        moving = (at(start + part * (end - start)).velocities for part in parts)
         gained = (
-            way_of(partial(_velocity, at, number, (start, end)), spin, step)
-            for number, spin in enumerate(turning)
+            way_of(velocities, spin, step)
+            for velocities, spin in zip(zip(*moving, strict=True), turning, strict=True)
         )
         mean, first, second = (more.after(way) for more, way in zip(gained, ways[-1], strict=True))
         ways.append((mean, first, second))
     return tuple(ways)
-
-
-def _velocity(
-    at: Callable[[float], Moment], number: int, step: tuple[float, float], part: float
-) -> Velocity:
-    """Return the velocity of the mean motion, 0, or of surface 1 or 2, at a part of a step [s]."""
-    start, end = step
-    return at(start + part * (end - start)).velocities[number]

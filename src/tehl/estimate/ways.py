@@ -1,7 +1,7 @@
 """Rigid motion of surfaces in their plane: how far they have moved and turned between two times."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Iterable
 from functools import cache
 from typing import NamedTuple, TypeVar
 
@@ -78,27 +78,30 @@ def steady_way(velocity: Velocity, spin: float, time: float) -> Way:
     return Way(u * along - v * aside, v * along + u * aside, turn)
 
 
-def way_of(velocity: Callable[[float], Velocity], spin: float, step: float) -> Way:
+def way_of(velocities: Iterable[Velocity], spin: float, step: float) -> Way:
     """Return the motion of a surface in a time step in which its velocity changes.
 
     Parameters
     ----------
-    velocity : callable
-        At a part of the step, from 0 to 1.
+    velocities : iterable of (float, float)
+        At `parts_of_step`.
     spin : float
         Angular velocity times a_x/u_m.
     step : float
         Time step [a_x/u_m].
     """
     along = across = 0.0
-    for node, weight in _nodes_of_gauss():
-        u, v = velocity(node)
+    for (node, weight), velocity in zip(_nodes_of_gauss(), velocities, strict=True):
         left = spin * step * (1.0 - node)
-        if left != 0.0:
-            u, v = _turned(left, u, v)
+        u, v = _turned(left, *velocity) if left != 0.0 else velocity
         along += weight * step * u
         across += weight * step * v
     return Way(along, across, spin * step)
+
+
+def parts_of_step() -> tuple[float, ...]:
+    """Return the parts of a time step, from 0 to 1, at which `way_of` takes velocities."""
+    return tuple(node for node, _ in _nodes_of_gauss())
 
 
 @cache

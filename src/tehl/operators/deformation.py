@@ -23,6 +23,9 @@ LINES_UP_TO = {True: 200, False: 160}
 """Intervals of the full domain, in the direction with fewer, up to which the sum by lines is the
 cheapest: on a half domain (True) and on a full one. Beyond it is the multilevel sum, whose error is
 negligible beside that of the discretisation (``python -m benchmarks deformation``)."""
+MOST_DIRECT = 192
+"""Nodes of a line up to which its direct sum is the fastest: on 33 and 161 it takes 2 and 5 us, by
+FFT 20 and 25; on 257 and 513 it takes 22 and 54, by FFT 30."""
 ASPECTS = (0.12, 32.0)
 """Ratios of the cell sides, across over along, within which the multilevel sum of a Hertz pressure
 with a spike errs by no more than twice that on square cells, at a quarter of the cost of the FFT
@@ -46,14 +49,14 @@ class Deformation(Protocol):
 
 
 class DirectDeformation:
-    """Direct sum in O(n^2) operations for n nodes: the reference of the tests."""
+    """Direct sum in O(n^2) operations for n nodes: the fastest on few, and the tests' reference."""
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
         self.matrix = matrix_of(grid, influence_of(grid, groups))
 
     def deflect(self, pressure: Array, out: Array) -> None:
         """Write the deflection under ``pressure`` to ``out``, which is contiguous."""
-        np.einsum("mk,k->m", self.matrix, pressure.ravel(), out=out.reshape(-1))
+        np.dot(self.matrix, pressure.ravel(), out=out.reshape(-1))
 
 
 class FftDeformation:
@@ -232,6 +235,8 @@ def choose(name: str, grid: Grid, groups: Groups, *, exact: bool = False) -> Def
 
 def _choose(name: str, grid: Grid, groups: Groups, *, exact: bool) -> Deformation:
     if groups.shape is LINE:
+        if grid.nx <= MOST_DIRECT:
+            return DirectDeformation(grid, groups)
         name = "lines"  # of one row: the sum by FFT
     if name == "auto":
         aspect = groups.ellipticity * grid.dy / grid.dx

@@ -12,7 +12,7 @@ from the pressure at ambient viscosity, P_0, which falls as t^3: it is 1/(1 - al
 the oil is cavitated.
 """
 
-from functools import cache
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +22,8 @@ from tehl.contact.moment import Moment
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 
+GAUSS_NODES = 16
+"""Nodes of the sums: with twice as many they change by less than 1e-6."""
 MOST_THICKENING = 0.5
 """alpha P_0 at the edge beyond which a domain is too short to have the oil outside by this."""
 
@@ -45,6 +47,20 @@ class Lines(NamedTuple):
     film: Array
     widths: Array
     slower: Array | float = 0.0
+
+
+class Places(NamedTuple):
+    """Places of the sums upstream of an edge at X_a, (n,) each [-]."""
+
+    t: Array
+    """X_a/X."""
+    away: Array
+    """X_a - X."""
+    lengths: Array
+    """|dX| of each."""
+    parabola: Array
+    bent: Array
+    """H less that at the edge, of the parabola and of the dry deflection."""
 
 
 class EdgeSlopes(NamedTuple):
@@ -86,22 +102,28 @@ def beyond(
     curvature : float
         1/R_x over that of the contact [-].
     """
-    t, weight = _gauss()
-    x = edge / t
-    h = _gap_beyond(edge, film[:, None], t, curvature)
-    slope = groups.lambda_bar * speed[:, None] * weight * (h - flux[:, None]) / h**3  # P' |dX|
-    slope *= -edge / t**2
+    places = _places(edge)
+    h = film[:, None] + (curvature * places.parabola + places.bent)
+    slope = groups.lambda_bar * speed[:, None] * places.lengths * (h - flux[:, None])  # P' |dX|
+    slope /= h * h * h
     thicker = np.minimum(groups.alpha_bar * slope.sum(axis=1), MOST_THICKENING)
-    slope /= 1.0 - thicker[:, None] * t**3
-    moments = (slope * (edge - x)).sum(axis=1)
-    return Beyond(slope.sum(axis=1), moments, (slope * h).sum(axis=1))
+    slope /= 1.0 - thicker[:, None] * places.t**3
+    return Beyond(slope.sum(axis=1), slope @ places.away, (slope * h).sum(axis=1))
 
 
-def _gap_beyond(edge: float, film: Array, t: Array, curvature: float = 1.0) -> Array:
-    """Return H upstream of an edge, at X = edge / t [-], from the film there."""
+@lru_cache(maxsize=64)
+def _places(edge: float) -> Places:
+    """Return the places of the sums upstream of an edge."""
+    nodes, weights = np.polynomial.legendre.leggauss(GAUSS_NODES)
+    t = 0.5 * (nodes + 1.0)
     x = edge / t
-    bent = 0.5 * np.log(t) + (1.0 / x**2 - 1.0 / edge**2) / 16.0
-    return np.asarray(film + 0.5 * curvature * (x**2 - edge**2) + bent)
+    return Places(
+        t=t,
+        away=edge - x,
+        lengths=-0.5 * weights * edge / t**2,
+        parabola=0.5 * (x**2 - edge**2),
+        bent=0.5 * np.log(t) + (1.0 / x**2 - 1.0 / edge**2) / 16.0,
+    )
 
 
 def rolling(
@@ -147,16 +169,6 @@ def rolling(
 def _incoming(speed: Array | float, lines: int) -> Array:
     """Return the speed of each line towards the contact, zero where oil leaves, (n,) [-]."""
     return np.maximum(np.broadcast_to(speed, (lines,)), 0.0)
-
-
-@cache
-def _gauss() -> tuple[Array, Array]:
-    """Return the nodes of Gauss between 0 and 1 and their weights.
-
-    With twice as many, sums change by less than 1e-6.
-    """
-    nodes, weights = np.polynomial.legendre.leggauss(16)
-    return 0.5 * (nodes + 1.0), 0.5 * weights
 
 
 class UpstreamField:
@@ -219,13 +231,11 @@ class UpstreamField:
             beyond(self.edge, inlet + change, flux, self.groups, speed=self.speed)
             for change in (step, -step)
         )
-        t, weight = _gauss()
-        x, h = self.edge / t, _gap_beyond(self.edge, inlet[:, None], t)
+        places = _places(self.edge)
         fastest = self.groups.lambda_bar * self.speed[:, None]
-        per_flux = fastest * self.edge / t**2 * weight / h**3
-        by_flux, load_by_flux, load_by_rate = (
-            (per_flux * (self.edge - x) ** power).sum(axis=1) for power in range(3)
-        )
+        gap = inlet[:, None] + places.parabola + places.bent
+        per_flux = -fastest * places.lengths / gap**3
+        by_flux, load_by_flux, load_by_rate = (per_flux @ places.away**power for power in range(3))
         by_film, by_rate = np.zeros_like(film), np.zeros_like(film)
         by_film[:, 0] = (higher.pressure - lower.pressure) / (2.0 * step)
         by_rate[:, 0] = load_by_flux
