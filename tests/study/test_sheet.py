@@ -59,6 +59,8 @@ def test_columns_are_chosen_converted_and_named_with_their_units(table):
     ]
     assert found.iloc[1, :5].tolist() == pytest.approx([40.0, 200.0, 1.0, 80.0, 20.0])
     assert list(sheet(table, []))[2] == "film.h_min_m [m]"
+    in_kelvin = sheet(table, ["inlet_k [K]", "film_rise_max_k [K]"])  # there is no 0 K to convert
+    assert in_kelvin.iloc[1].tolist() == [353.15, 2.0]
 
 
 @pytest.mark.parametrize(

@@ -107,7 +107,7 @@ def _shared(result: Solution | TransientSolution, pictures: Pictures, dpi: int) 
         "bars": bars,
         "certified": list(_certified(bars)),
         "conventions": DEFINITIONS,
-        "as_stated": replace(moment_at(start.problem, 0.0), sliding=0.0) == Moment(),
+        "as_stated": replace(moment_at(start.problem, 0.0), sliding=0.0, across=0.0) == Moment(),
         "formulas": film_estimates(start.groups, start.scales),
         "inputs": _inputs(start),
         "no_film": no_film(start),

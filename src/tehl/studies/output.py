@@ -208,12 +208,13 @@ def _conversion(name: str, si: str, unit: str) -> tuple[float, float]:
         raise InputError(f"column {name} [{unit}]: has no unit; leave out the brackets")
     quantity = Quantity(name=f"the unit of {name}", unit=si, example=f"1 {si}", sign="any")
     try:
-        zero, one = (quantity.parse(f"{number} {unit}") for number in (0, 1))
+        one, two = (quantity.parse(f"{number} {unit}") for number in (1, 2))  # not 0 K
     except ValueError as error:
         raise InputError(f"column {name} [{unit}]: {error}") from None
+    zero = 2.0 * one - two
     if zero and "rise" in name:
         raise InputError(f"column {name} [{unit}]: is a difference; state it in K")
-    return one - zero, zero
+    return two - one, zero
 
 
 def write_sheet(table: "pd.DataFrame", path: Path, columns: Sequence[str]) -> None:
