@@ -1,5 +1,6 @@
 """Numbers of the stress below the surfaces: largest values, their depths, ratios to dry contact."""
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -14,6 +15,26 @@ from tehl.result.solution import Solution
 NEIGHBOUR_DEPTHS = 2
 """Depths on each side of a maximum whose values are interpolated: further away other principal
 stresses may be the largest."""
+
+
+SPIKE_CELLS = 2.0
+"""Half-width of a spike that the mesh does not resolve, in mesh widths along x."""
+
+
+class PressureBar(NamedTuple):
+    """Error bar of the largest pressure of a film."""
+
+    part: float
+    """Over that pressure [-]."""
+    half_width: float
+    """Of what it is the error, a strip across the flow [m]; infinite where it is not known."""
+
+    def at(self, depth: float) -> float:
+        """Return the bar of a stress at a depth [m] under the middle of the strip [-].
+
+        A strip of uniform pressure p makes (2/pi) p arctan(half-width/depth) there.
+        """
+        return self.part * 2.0 / math.pi * math.atan(self.half_width / depth)
 
 
 class Peak(NamedTuple):
@@ -61,7 +82,8 @@ class BodyNumbers:
     """Largest shear stress [Pa], its depth and place [m]."""
     shear_error: float
     """Its relative error bar: the change by loads on every second node, and the bar of the largest
-    pressure of the film [-]."""
+    pressure of the film, of a spike that the mesh does not resolve by what reaches that depth [-].
+    """
     shear_ratio: float
     """Largest shear stress over that of the dry smooth contact [-]."""
     von_mises: float
@@ -143,7 +165,10 @@ def stress_numbers(result: Solution) -> StressNumbers | None:
     found = result.stress
     if found is None:
         return None
-    bar = 0.0 if result.errors is None else result.errors.of("pressure_max") or 0.0
+    errors, bar = result.errors, PressureBar(0.0, math.inf)
+    if errors is not None:
+        spike = math.inf if errors.spike_resolved else SPIKE_CELLS * (result.x[1] - result.x[0])
+        bar = PressureBar(errors.of("pressure_max") or 0.0, spike)
     settings = result.problem.stress or Stress()
     power = settings.stress_exponent / settings.weibull_slope
     return StressNumbers(
@@ -172,7 +197,7 @@ def _missing_heat(result: Solution, bodies: list[int]) -> float:
 
 
 def _numbers(
-    found: BodyStress, row: int, bar: float, power: float, settings: Stress
+    found: BodyStress, row: int, bar: PressureBar, power: float, settings: Stress
 ) -> BodyNumbers:
     shear, dry = (peak(found.depth, one[row]) for one in (found.shear, found.shear_dry))
     coarse = peak(found.depth, found.shear_coarse[row])
@@ -187,7 +212,7 @@ def _numbers(
         shear_depth=shear.depth,
         shear_x=float(found.shear_x[row, shear.place]),
         shear_y=float(found.shear_y[row, shear.place]),
-        shear_error=abs(coarse.value / shear.value - 1.0) + bar,
+        shear_error=abs(coarse.value / shear.value - 1.0) + bar.at(shear.depth),
         shear_ratio=shear.value / dry.value,
         von_mises=mises.value,
         von_mises_depth=mises.depth,
@@ -196,7 +221,7 @@ def _numbers(
         dang_van=dang_van.value,
         dang_van_ratio=dang_van.value / dang_van_dry.value if dang_van_dry.value > 0 else None,
         life_ratio=life or None,
-        life_ratio_error=abs(life_coarse / life - 1.0) + power * bar
+        life_ratio_error=abs(life_coarse / life - 1.0) + power * bar.part
         if life and life_coarse
         else None,
         at_shallowest=shear.place == 0,
