@@ -42,7 +42,8 @@ def test_temperature_and_traction_do_not_apply(result):
 THERMAL_KEYS = {
     "temperature": "film_rise_max_k mid_film_rise_central_k surface_1_rise_max_k "
     "surface_2_rise_max_k film_rise_max_at mean_rise_central_k inlet_k",
-    "traction": "surface_1 mid_film surface_2 sliding rolling closure_error friction_power_w",
+    "traction": "surface_1 mid_film surface_2 sliding rolling closure_error friction_power_w "
+    "sliding_power_w",
     "heat": "shear_w compression_w surface_1_w surface_2_w carried_out_w solid_peclet sources",
 }
 

@@ -62,6 +62,7 @@ def test_friction_power_is_sliding_and_rolling(sheared):
     sliding = -found.mid_film * found.load * motion.sliding_speed
     rolling = 2 * found.rolling * found.load * motion.entrainment_speed
     assert found.friction_power == pytest.approx(sliding + rolling)
+    assert found.sliding_power == pytest.approx(sliding)
     assert found.friction_power > 0
 
 

@@ -183,6 +183,7 @@ def test_the_power_of_an_isothermal_newtonian_film_is_what_shear_dissipates():
     sheared = float((area * stress**2 * result.film_thickness / eta).sum())
     rolling = 2.0 * found.rolling * found.load * result.problem.entrainment_speed
     assert found.friction_power - rolling == pytest.approx(sheared, rel=2e-3)
+    assert found.sliding_power == pytest.approx(sheared, rel=2e-6)
 
 
 ACROSS = {"sliding_angle": QUARTER, "slide_roll_ratio": 1.5}

@@ -157,6 +157,16 @@ class TransientResult(Saved, TransientSolution):
         return transient_numbers.friction(self)
 
     @property
+    def lambda_central(self) -> Array | None:
+        """Central film at each time over Sq of both surfaces [-]; None where the film has it."""
+        return transient_numbers.lambda_central(self)
+
+    @property
+    def sliding_power(self) -> Array | None:
+        """Power by sliding at each time [W], of one metre of a line contact; None if unknown."""
+        return transient_numbers.sliding_power(self)
+
+    @property
     def late_extremes(self) -> tuple[str, ...]:
         """Extremes that were reached at the end of a run whose duration is not stated.
 

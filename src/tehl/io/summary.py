@@ -14,7 +14,13 @@ from pydantic import TypeAdapter
 from tehl.base.typing import Array
 from tehl.post.following import Following
 from tehl.post.roughness import RoughFilm
-from tehl.post.transient_numbers import friction, late_extremes, longer_duration
+from tehl.post.transient_numbers import (
+    friction,
+    lambda_central,
+    late_extremes,
+    longer_duration,
+    sliding_power,
+)
 from tehl.result import quantities, registry
 from tehl.result.quantity import Quantity
 from tehl.result.solution import Solution
@@ -246,6 +252,8 @@ HISTORY = (
         lambda run: run.history.rolling_moment if run.start.problem.contact.has_lines else None,
     ),
     Historical("friction", friction),
+    Historical("sliding_power_w", sliding_power, "largest"),
+    Historical("lambda_central", lambda_central, "least"),
     Historical("asperity_load", _asperity_load, "largest"),
     Historical("load_factor", attrgetter("history.load")),
     Historical("speed_factor", attrgetter("history.speed")),

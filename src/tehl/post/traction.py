@@ -48,6 +48,8 @@ class Traction:
     """Size of the mid-film stress, whatever its direction is at each place, over the load [-]."""
     friction_power: float
     """Power that the surfaces transfer to the film in the loaded zone [W]."""
+    sliding_power: float
+    """Part of it by sliding, of the mid-film stress; the other part is by rolling [W]."""
     surroundings: Surroundings | None = None
     """Drag of the flooded oil around the loaded zone; None for starved films, and where surfaces
     slide across the entrainment or spin."""
@@ -118,10 +120,13 @@ def traction(result: Solution) -> Traction | None:
         integral(stress - rubbed) for stress in (shear.surface_1, shear.mid_film, shear.surface_2)
     )
     push = integral(film * _slope(pressure, result.x))
-    power = second * motion.speed_2 - first * motion.speed_1
+    powers = {
+        "friction_power": second * motion.speed_2 - first * motion.speed_1,
+        "sliding_power": middle * (motion.speed_2 - motion.speed_1),
+    }
     others: dict[str, float] = {}
     if not motion.is_plain:
-        power, others = _across(result, np.where(inside, area, 0.0), meet)
+        powers, others = _across(result, np.where(inside, area, 0.0), meet)
     lift = integral(_slope(pressure * film, result.x) - pressure * _slope(film, result.x))
     return Traction(
         surface_1=first / load,
@@ -132,16 +137,16 @@ def traction(result: Solution) -> Traction | None:
         load=load,
         sheared=integral(np.hypot(shear.mid_film - rubbed, np.where(meet, 0.0, shear.across)))
         / load,
-        friction_power=power,
         surroundings=surroundings(result, shear, wet - area, load) if motion.is_plain else None,
+        **powers,
         **others,
     )
 
 
 def _across(
     result: Solution, area: Array, meet: BoolArray | bool
-) -> tuple[float, dict[str, float]]:
-    """Return the friction power [W], and what `Traction` has of motion that is not along x alone.
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the powers [W], and what `Traction` has of motion that is not along x alone.
 
     ``area`` is that of each node in the loaded zone [m^2]. Where surfaces ``meet`` there is no
     stress of the film.
@@ -151,7 +156,8 @@ def _across(
     pressure, film = np.maximum(result.pressure, 0.0), result.film_thickness
     rolling = 0.5 * film * (_slope(pressure.T, result.y).T if y.size > 1 else 0.0 * pressure)
     free = np.where(meet, 0.0, area)
-    power = 0.0
+    power, (slid_x, slid_y) = 0.0, motion.sliding_field(x, y)
+    sheared = np.where(meet, 0.0, shear.mid_film) * slid_x + shear.across * slid_y
     for number, sign in ((1, -1.0), (2, 1.0)):
         u, v = motion.field_of(number, x, y)
         along = getattr(shear, f"surface_{number}") - np.where(meet, shear.mid_film, 0.0)
@@ -164,7 +170,7 @@ def _across(
     if motion.spin_1 or motion.spin_2:
         turning = x * shear.across - y * shear.mid_film
         found["drilling_moment"] = float(np.sum(free * turning))
-    return power, found
+    return {"friction_power": power, "sliding_power": -float(np.sum(free * sheared))}, found
 
 
 def under_pressure(result: Solution) -> Array:

@@ -1,4 +1,4 @@
-"""Numbers of a transient result: friction over time, late extremes, patches of contact."""
+"""Numbers of a transient result: friction, power and lambda over time, late extremes, patches."""
 
 from contextlib import suppress
 
@@ -6,10 +6,11 @@ import numpy as np
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
-from tehl.contact.moment import slides_ever
+from tehl.contact.moment import slides_ever, timeline
 from tehl.estimate.duration import whole_passing
 from tehl.estimate.scaling import ScaledProblem
 from tehl.post.boundary_contact import largest_patches, touching, why_unknown
+from tehl.post.roughness import rough_film
 from tehl.result.transient import TransientSolution
 
 
@@ -25,6 +26,36 @@ def friction(run: TransientSolution) -> Array | None:
     slides = slides_ever(problem)
     film = np.hypot(run.history.traction, run.history.traction_across)
     return film + (run.history.solid_friction if slides else 0.0)
+
+
+def lambda_central(run: TransientSolution) -> Array | None:
+    """Central film at each time over Sq of both surfaces [-].
+
+    None between smooth surfaces, and where the film has the roughness.
+    """
+    rough = rough_film(run.start) if run.start.heights is None else None
+    return None if rough is None else run.history.film_central / rough.composite
+
+
+def sliding_power(run: TransientSolution) -> Array | None:
+    """Power by sliding at each time, of film and solid contact [W], of one metre of a line contact.
+
+    That of the forces and of the drilling moment at mid-film. None where nothing slides, and where
+    the friction of solids is not known, or their surfaces spin.
+    """
+    problem, history = run.start.problem, run.history
+    turning = problem.motion.spin_1 - problem.motion.spin_2
+    known = friction(run) is not None
+    has_solids = problem.asperities is not None or problem.contact_film is not None
+    if not (slides_ever(problem) or turning) or (has_solids and (turning or not known)):
+        return None
+    moments = list(map(timeline(problem), history.time))
+    along, across = np.array([(one.sliding, one.across) for one in moments]).T
+    force = history.traction * along + history.traction_across * across
+    if known:
+        force = force - history.solid_friction * np.hypot(along, across)
+    load = problem.load * history.load * problem.entrainment_speed
+    return np.asarray(-load * force - turning * history.drilling_moment)
 
 
 def late_extremes(run: TransientSolution) -> tuple[str, ...]:

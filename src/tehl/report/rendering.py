@@ -4,6 +4,7 @@ import math
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
+from tehl.estimate.film_formulas import lubrication
 from tehl.report.readable import error_text, length, seconds
 from tehl.result import quantity
 
@@ -55,6 +56,7 @@ def _environment() -> "Environment":
         "about": lambda number: f"{float(f'{number:.2g}'):,.0f}",
         "g": lambda value, digits=4: f"{value:.{digits}g}",
         "plain": lambda value, digits=1: f"{float(f'{value:.{digits}g}'):g}",  # 20, not 2e+01
+        "lubrication": lubrication,
         "metres": lambda value: _in_unit("nm" if value < 1e-6 else "um", value),
         "off": lambda formula, value: f"{100 * (formula / value - 1):+.1f} %",
         "percent": lambda part, digits=2: f"{float(f'{100 * part:.{digits}g}'):g} %",

@@ -8,8 +8,10 @@ from tehl.post.following import Following
 from tehl.post.transient import way
 from tehl.post.transient_numbers import (
     friction,
+    lambda_central,
     late_extremes,
     longer_duration,
+    sliding_power,
     why_share_unknown,
 )
 from tehl.result.quantity import Quantity
@@ -68,6 +70,8 @@ def following(result: Solution | TransientSolution) -> Following | dict[str, Any
             "traction": found.traction,
             "stress": found.stress,
             "friction": friction(result),
+            "lambda_central": lambda_central(result),
+            "sliding_power": sliding_power(result),
             "late_extremes": late_extremes(result),
             "longer_duration": longer_duration(result),
             "why_share_unknown": why_share_unknown(result),

@@ -217,7 +217,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         },
     ),
     *plain("traction", "surface_2 rolling rolling_by_film closure_error credible"),
-    *plain("traction", "friction_power_w"),
+    *plain("traction", "friction_power_w sliding_power_w"),
     Quantity(
         "traction.across",
         name="traction_across",
