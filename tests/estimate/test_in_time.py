@@ -4,12 +4,12 @@ import pytest
 
 from tehl.base.errors import InputError
 from tehl.contact.moment import Moment, frozen, moment_at
-from tehl.contact.options import Options
+from tehl.contact.options import Domain, Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.transient import Transient
 from tehl.estimate.domain import domain_of
 from tehl.estimate.in_time import films_of_run
-from tehl.estimate.line import line_points
+from tehl.estimate.line import line_error, line_points
 from tehl.estimate.nodes import least_in_time, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.report.explain import explain
@@ -79,6 +79,17 @@ def test_the_domain_of_a_load_that_grows_contains_its_widest_contact():
     assert domain_of(grows, options).x == pytest.approx((2.0 * inlet, 2.0 * outlet))
     falls = run(line(), load=[[0, 1.0], ["1 ms", 0.2]])
     assert domain_of(falls, options).x == (inlet, outlet)
+
+
+@pytest.mark.parametrize(
+    ("load", "nodes", "bar"), [(3.0, 161, 0.0050), (8.6, 129, 0.0548), (8.6, 257, 0.0120)]
+)
+def test_the_bar_of_a_line_on_few_nodes_is_expected(load: float, nodes: int, bar: float):
+    """Bars of films with L = 6 on 4.9 half-widths; on more nodes errors fall faster."""
+    contact = {"type": "line", "radius": 0.01, "moes_load": load, "moes_speed": 6.0}
+    given = moes_contact(50.0, 6.0).model_dump(exclude_none=True) | {"contact": contact}
+    groups = ScaledProblem.of(ContactProblem.model_validate(given)).groups
+    assert 0.8 * bar < line_error(groups, Domain(x=(-3.4, 1.5)), nodes) < 1.2 * bar
 
 
 def test_films_of_slow_moments_do_not_count():

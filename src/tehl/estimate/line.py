@@ -42,6 +42,10 @@ LINE_MINIMUM_BAR, HEAVY_LINE = 0.028, 80.0
 lines with M = 18 to 80, L = 10 to 13 on 513 to 4097 nodes, heated, thinning or neither; and M of
 heavier ones: with it 0.15 to 1.9 of the errors of 20 lines with M = 90 to 280, with theirs up to 6;
 and 7 of that of one between asperities, M = 84."""
+COARSE_LINE_BAR, COARSE_LINE_MOST, COARSE_LINE_M = 0.5, 0.05, 30.0
+"""The larger error on nodes that do not exceed those of steady lines, over (M h)^2; the most that
+it is; and M of heavier ones, which `LINE_MINIMUM_BAR` has. Of lines with M = 1 to 20, L = 2 to 12
+on 129 to 257 nodes it is 0.4 to 1.4 times the bar."""
 ROLLER_NODES, LEAST_ROWS = tuple(2**k * n + 1 for k in range(4, 9) for n in (16, 20, 24, 28)), 128
 """Numbers of nodes along a roller's entrainment, and least intervals along it: its ends."""
 SECOND_ORDER_BAR = 40.0
@@ -111,9 +115,12 @@ def line_error(groups: Groups, domain: Domain, nodes: float) -> float:
     groups, domain, nodes
         As of `line_bar`.
     """
-    width = min(groups.M, HEAVY_LINE) * (domain.x[1] - domain.x[0])
-    minimum = LINE_MINIMUM_BAR * (width / (nodes - 1)) ** 1.5
-    return max(minimum, line_bar(groups, domain, nodes))
+    width = (domain.x[1] - domain.x[0]) / (nodes - 1)
+    minimum = LINE_MINIMUM_BAR * (min(groups.M, HEAVY_LINE) * width) ** 1.5
+    found = max(minimum, line_bar(groups, domain, nodes))
+    if nodes > FEWEST_OF_STEADY or groups.M > COARSE_LINE_M:
+        return found
+    return max(found, min(COARSE_LINE_BAR * (groups.M * width) ** 2, COARSE_LINE_MOST))
 
 
 def line_points(groups: Groups, domain: Domain, error: float, least: float) -> int:
