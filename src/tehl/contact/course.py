@@ -117,13 +117,18 @@ def _value(value: object, kinds: tuple[Quantity, ...], plain: Quantity) -> float
     """Return a plain number, or the text of one with its unit."""
     if not isinstance(value, str) or not any(letter.isalpha() for letter in value):
         return plain.parse(value)
-    for kind in kinds[:-1]:
+    *others, usual = kinds
+    for kind in others:
         try:
             kind.parse(value)
         except ValueError:
             continue
         return value
-    kinds[-1].parse(value)
+    try:
+        usual.parse(value)
+    except ValueError as error:
+        more = (f", or {kind.name} such as {kind.example}" for kind in others)
+        raise ValueError(f"{error}{''.join(more)}") from None
     return value
 
 

@@ -133,7 +133,10 @@ def slides_ever(problem: PointContact) -> bool:
 
 
 def courses_of(problem: PointContact) -> dict[str, Course]:
-    """Return what changes in time, by key of ``[transient]``."""
+    """Return what changes in time, by key of ``[transient]``.
+
+    Raises ValueError for a value whose unit is not that of this contact.
+    """
     transient = problem.transient
     if transient is None:
         return {}
@@ -146,8 +149,11 @@ def courses_of(problem: PointContact) -> dict[str, Course]:
         "radius": (quantity(Length), problem.radius_x),
     }
     stated: dict[str, Stated] = {key: getattr(transient, key) for key in kinds}
-    return {
-        key: course_of(stated[key], kind, reference)
-        for key, (kind, reference) in kinds.items()
-        if stated[key]
-    }
+    found = dict[str, Course]()
+    for key, (kind, reference) in kinds.items():
+        try:
+            if stated[key]:
+                found[key] = course_of(stated[key], kind, reference)
+        except ValueError as error:
+            raise ValueError(f"transient.{key}: a value {error}") from None
+    return found

@@ -31,6 +31,7 @@ from tehl.contact.exclusions import (
     check_stress,
     check_turning,
 )
+from tehl.contact.moment import courses_of
 from tehl.contact.point_contact import PointContact
 from tehl.contact.summits import GreenwoodTripp
 from tehl.contact.transient import COURSES, MOTION
@@ -266,6 +267,7 @@ def check_transient(problem: PointContact) -> None:
             "transient: nothing changes with time; give a surface roughness, transient.load, "
             "transient.entrainment_speed or transient.duration"
         )
+    courses_of(problem)  # reads the values that have a unit
 
 
 def check_supply(problem: PointContact) -> None:
