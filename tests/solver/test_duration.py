@@ -10,9 +10,10 @@ from tehl.contact.transient import Transient
 from tehl.estimate.duration import duration_of, misplaced
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem, scales
-from tehl.estimate.schedule import schedule_of
+from tehl.estimate.schedule import check_peaks, schedule_of
 from tehl.operators.heights import MovingHeights
-from tehl.solver.transient.checks import check_peaks, check_waves
+from tehl.report.explain import explain
+from tehl.solver.transient.checks import check_waves
 from tehl.solver.transient.snapshot import kept_steps
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.test_transient import OPTIONS, in_time, wave
@@ -140,8 +141,9 @@ def test_a_run_starts_with_the_film_of_its_first_load():
 def test_a_load_pulse_between_two_steps_is_rejected():
     step = GRID.dx * WIDTH / UNITS.speed
     pulse = [(0.0, 1.0), (3.3 * step, 1.0), (3.5 * step, 3.0), (3.7 * step, 1.0)]
-    with pytest.raises(InputError, match=r"transient\.load = 3 at .* do not resolve it"):
-        solve_transient(in_time(1.0, transient={"load": pulse}), OPTIONS)
+    for one in (explain, solve_transient):
+        with pytest.raises(InputError, match=r"transient\.load = 3 at .* do not resolve it"):
+            one(in_time(1.0, transient={"load": pulse}), OPTIONS)
 
 
 def test_a_load_pulse_with_a_flat_top_between_two_steps_is_rejected_too():
@@ -182,5 +184,7 @@ def test_a_duration_that_overflows_is_rejected():
 def test_fields_are_stored_at_chosen_instants():
     chosen = Transient(frames=(0.0, 0.31, 0.5))
     assert kept_steps(chosen, 10, 0.1) == {0, 3, 5}
-    with pytest.raises(InputError, match="2 s: after the end of the run at 1 s"):
-        kept_steps(Transient(frames=(2.0,)), 10, 0.1)
+    late = in_time(1.0, transient={"duration": "1 ms", "frames": ["2 s"]})
+    for one in (explain, solve_transient):
+        with pytest.raises(InputError, match=r"2 s: after the end of the run at 0\.001"):
+            one(late, OPTIONS)

@@ -1,21 +1,24 @@
 """Load, motion and radius at each time step, and the distances travelled until then."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import groupby, pairwise
 
 import numpy as np
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
-from tehl.contact.course import LARGEST_FACTOR
+from tehl.contact.course import LARGEST_FACTOR, Course
 from tehl.contact.moment import Moment, courses_of, moment_at, timeline
+from tehl.contact.problem import ContactProblem
 from tehl.contact.transient import MOTION
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.spin import spin_number, spins
 from tehl.estimate.ways import Way, parts_of_step, steady_way, way_of
 
+LARGEST_PEAK_ERROR = 0.25
+"""Largest error of a peak at the nearest step, over the whole change of the table."""
 Ways = tuple[Way, Way, Way]
 """Of the mean motion and of both surfaces."""
 
@@ -102,9 +105,7 @@ def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
     problem, at = scaled.problem, timeline(scaled.problem)
     seconds = step * scaled.scales.half_width_x / scaled.scales.speed
     times = [n * seconds for n in range(number + 1)]
-    for key, course in courses_of(problem).items():
-        for time in times:
-            _check(key, course.at(time), time)
+    _check_courses(problem, times)
     moments = tuple(map(at, times))
     if not moments[0].speed > 0.0:
         slow = 0.1 * scaled.scales.speed
@@ -124,6 +125,67 @@ def schedule_of(scaled: ScaledProblem, step: float, number: int) -> Schedule:
     constant = all((one.speed, one.sliding) == (stated.speed, stated.sliding) for one in moments)
     ways = None if constant and problem.motion.is_plain else _ways(scaled, at, step, times)
     return Schedule(step=step, moments=moments, ways=ways, spin=spin_number(scaled))
+
+
+def _check_courses(problem: ContactProblem, times: list[float]) -> None:
+    """Check what changes in a run with steps at times [s], and when its fields are kept."""
+    courses, transient = courses_of(problem), problem.transient
+    for key, course in courses.items():
+        for time in times:
+            _check(key, course.at(time), time)
+    seconds = times[1] - times[0]
+    check_peaks(courses, seconds)
+    if transient is not None:
+        _check_frames(transient.frames, times[-1], seconds)
+
+
+def check_peaks(courses: Mapping[str, Course], seconds: float) -> None:
+    """Check that time steps resolve the peaks of tables over time.
+
+    Parameters
+    ----------
+    courses : Mapping
+        What changes in time, by key of ``[transient]``.
+    seconds : float
+        Time step [s].
+
+    Raises
+    ------
+    InputError
+        If a peak lies between two steps.
+    """
+    for key, course in courses.items():
+        levels = plateaus(course.table)
+        values = [value for *_, value in levels]
+        change = max(values, default=0.0) - min(values, default=0.0)
+        for before, (first, last, value), after in zip(
+            levels, levels[1:], levels[2:], strict=False
+        ):
+            turns = (value - before[2]) * (value - after[2]) > 0
+            steps = [round(time / seconds) * seconds for time in (first, last)]
+            seen = math.ceil(first / seconds) * seconds <= last
+            missed = min(abs(value - course.at(time)) for time in steps)
+            if turns and not seen and missed > LARGEST_PEAK_ERROR * change:
+                raise InputError(
+                    f"transient.{key} = {value:g} at {first:g} s: a peak between two time steps of "
+                    f"{seconds:.3g} s, which do not resolve it; take more numerics.points, or a "
+                    "longer peak"
+                )
+
+
+def plateaus(table: tuple[tuple[float, float], ...]) -> list[tuple[float, float, float]]:
+    """Return start, end and value of each constant part of a table of times and values."""
+    parts = (list(part) for _, part in groupby(table, key=lambda row: row[1]))
+    return [(part[0][0], *part[-1]) for part in parts]
+
+
+def _check_frames(frames: int | tuple[float, ...], end: float, seconds: float) -> None:
+    """Check that stated times of fields are within a run, whose end and time step are in [s]."""
+    late = [] if isinstance(frames, int) else [one for one in frames if one > end + 0.5 * seconds]
+    if late:
+        raise InputError(
+            f"transient.frames = {late[0]:g} s: after the end of the run at {end:.4g} s"
+        )
 
 
 def _check(key: str, value: float, time: float) -> None:

@@ -148,6 +148,7 @@ def _changes(scaled: ScaledProblem, duration: float) -> Iterator[tuple[str, floa
     """Yield each key of ``[transient]`` that changes, with the least and largest number."""
     for key, course in courses_of(scaled.problem).items():
         values = [course.at(duration * n / SAMPLES) for n in range(SAMPLES + 1)]
+        values += [value for time, value in course.table if 0.0 <= time <= duration]
         yield key, min(values), max(values)
 
 

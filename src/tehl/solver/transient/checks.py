@@ -3,14 +3,9 @@
 Each raises `InputError` with the key, its value, what is wrong, and what is expected.
 """
 
-import math
-from collections.abc import Mapping
-from itertools import groupby
-
 import numpy as np
 
 from tehl.base.errors import InputError
-from tehl.contact.course import Course
 from tehl.contact.shape import LINE
 from tehl.contact.transient import Transient
 from tehl.estimate.grid import Grid
@@ -21,8 +16,6 @@ from tehl.operators.heights import MovingHeights, check_nodes, rounded_up
 LEAST_STEPS = 4.0
 """Time steps per passing wave below which the wave is aliased."""
 TIME_ROUNDING = 1e-9
-LARGEST_PEAK_ERROR = 0.25
-"""Largest error of a peak at the nearest step, over the whole change of the table."""
 
 
 def check_stride(transient: Transient, grid: Grid, schedule: Schedule) -> None:
@@ -99,43 +92,3 @@ def check_waves(heights: MovingHeights, grid: Grid, schedule: Schedule, stride: 
                 "would be aliased; increase numerics.points by a factor of at least "
                 f"{rounded_up(part * LEAST_STEPS)}{smaller}"
             )
-
-
-def check_peaks(courses: Mapping[str, Course], seconds: float) -> None:
-    """Check that time steps resolve the peaks of tables over time.
-
-    Parameters
-    ----------
-    courses : Mapping
-        What changes in time, by key of ``[transient]``.
-    seconds : float
-        Time step [s].
-
-    Raises
-    ------
-    InputError
-        If a peak lies between two steps.
-    """
-    for key, course in courses.items():
-        levels = plateaus(course.table)
-        values = [value for *_, value in levels]
-        change = max(values, default=0.0) - min(values, default=0.0)
-        for before, (first, last, value), after in zip(
-            levels, levels[1:], levels[2:], strict=False
-        ):
-            turns = (value - before[2]) * (value - after[2]) > 0
-            steps = [round(time / seconds) * seconds for time in (first, last)]
-            seen = math.ceil(first / seconds) * seconds <= last
-            missed = min(abs(value - course.at(time)) for time in steps)
-            if turns and not seen and missed > LARGEST_PEAK_ERROR * change:
-                raise InputError(
-                    f"transient.{key} = {value:g} at {first:g} s: a peak between two time steps of "
-                    f"{seconds:.3g} s, which do not resolve it; take more numerics.points, or a "
-                    "longer peak"
-                )
-
-
-def plateaus(table: tuple[tuple[float, float], ...]) -> list[tuple[float, float, float]]:
-    """Return start, end and value of each constant part of a table of times and values."""
-    parts = (list(part) for _, part in groupby(table, key=lambda row: row[1]))
-    return [(part[0][0], *part[-1]) for part in parts]

@@ -9,7 +9,6 @@ import numpy as np
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
-from tehl.contact.moment import courses_of
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.contact.transient import Transient
@@ -38,7 +37,7 @@ from tehl.solver.judging.measures import (
 )
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.steady import try_strategies
-from tehl.solver.transient.checks import check_peaks, check_size, check_stride, check_waves
+from tehl.solver.transient.checks import check_size, check_stride, check_waves
 from tehl.solver.transient.coarser import at_nodes, go_coarser
 from tehl.solver.transient.endings import no_film, step_not_settled, time_over
 from tehl.solver.transient.oil import Lead
@@ -170,7 +169,6 @@ class Run:
         check_waves(self.heights, grid, self.schedule, stride)
         if (fault := misplaced(self.scaled, self.steps * self.seconds)) is not None:
             raise InputError(fault)
-        check_peaks(courses_of(self.problem), self.seconds)
         self.kept = kept_steps(transient, self.steps, self.seconds)
 
     def _steady_start(self, options: Options, monitor: StepMonitor) -> tuple[Attempt, Solution]:

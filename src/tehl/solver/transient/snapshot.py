@@ -278,18 +278,8 @@ def kept_steps(transient: Transient, steps: int, seconds: float) -> set[int]:
         ``frames`` is their number, or their times [s].
     steps, seconds : int, float
         Number of steps of the run, and time step [s].
-
-    Raises
-    ------
-    InputError
-        If a stated time is after the end.
     """
     if isinstance(transient.frames, int):
         every = steps / max(transient.frames - 1, 1)
         return {round(n * every) for n in range(transient.frames)}
-    late = [time for time in transient.frames if time > (steps + 0.5) * seconds]
-    if late:
-        raise InputError(
-            f"transient.frames = {late[0]:g} s: after the end of the run at {steps * seconds:.4g} s"
-        )
     return {min(round(time / seconds), steps) for time in transient.frames}
