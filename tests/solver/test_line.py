@@ -77,6 +77,8 @@ def test_the_oil_upstream_of_a_short_domain_counts(name):
     assert abs(numbers["closure_error"]) < 5e-5
     force, moment, radius = numbers["force_n"], numbers["moment_n_m"], found.problem.radius_x
     assert moment == pytest.approx(2.0 * force * radius, rel=1e-12)
+    speed = found.problem.entrainment_speed
+    assert numbers["power_w"] == pytest.approx(2.0 * force * speed, rel=1e-12)
     assert moment == pytest.approx(found.load * numbers["shift_m"], rel=1e-12)
 
 

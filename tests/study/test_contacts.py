@@ -329,6 +329,17 @@ def test_friction_and_loss_contain_those_of_asperities():
     assert "no friction, as this oil shears at more stress" in _obtained(row)
 
 
+def test_a_loss_by_rolling_is_that_of_the_whole_line_or_not_known():
+    """Of thick films the loaded zone has a part that falls short of it, or is negative."""
+    zone = {"traction.friction_power_w": -42.9, "traction.sliding_power_w": 11.4}
+    line = {"rolling.power_w": 282.4, "errors.rolling": 0.02}
+    assert values_of(zone | line)["friction loss [W]"] == pytest.approx(293.8)
+    assert values_of(zone | line)["± friction loss [W]"] == pytest.approx(0.02 * 293.8)
+    assert "friction loss [W]" not in values_of(zone)
+    row = Row(key="a", status="converged", summary=zone)
+    assert "no loss, as so thick a film" in _obtained(row)
+
+
 def test_a_row_says_which_of_its_empty_cells_the_template_states():
     headings = ["name", "load [N]", "p_h [GPa]", "u_m [m/s]"]
     rows = ["a", 50, None, 1.0], ["b", None, 1.2, 1.0], ["c", None, None, None]

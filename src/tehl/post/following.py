@@ -12,6 +12,7 @@ from tehl.post.starvation import Starvation, starvation
 from tehl.post.stress.numbers import StressNumbers, stress_numbers
 from tehl.post.summits import LoadSharing, load_sharing
 from tehl.post.traction import Traction, traction
+from tehl.result.derived import film_loss
 from tehl.result.registry import NumbersOf
 from tehl.result.solution import CycleReport, Solution
 
@@ -36,6 +37,11 @@ class Following:
     def rolling(self) -> Rolling | None:
         """Rolling friction of a line contact, None for other shapes."""
         return rolling_friction(self.solution)
+
+    @cached_property
+    def film_loss(self) -> float | None:
+        """Loss in the film [W]; None where it is not known."""
+        return film_loss(self.numbers)
 
     @cached_property
     def temperature(self) -> Temperature | None:

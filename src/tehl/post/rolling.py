@@ -24,6 +24,8 @@ class Rolling:
 
     force: float
     """F on each surface, against its motion [N]."""
+    power: float
+    """By rolling, 2 F u_m [W]."""
     moment: float
     """Moment w e = 2 F R of the pressure about the middle [N m]."""
     shift: float
@@ -64,6 +66,7 @@ def rolling_friction(result: Solution) -> Rolling | None:
     load = problem.shape.load_unit(problem.radius_x, problem.reduced_modulus)
     return Rolling(
         force=force,
+        power=2.0 * force * problem.entrainment_speed,
         moment=arm,
         shift=arm / result.load,
         tail_share=tail / flow if flow else 0.0,

@@ -122,7 +122,7 @@ def traction(result: Solution) -> Traction | None:
     push = integral(film * _slope(pressure, result.x))
     powers = {
         "friction_power": second * motion.speed_2 - first * motion.speed_1,
-        "sliding_power": middle * (motion.speed_2 - motion.speed_1),
+        "sliding_power": middle * (motion.speed_2 - motion.speed_1) + 0.0,
     }
     others: dict[str, float] = {}
     if not motion.is_plain:

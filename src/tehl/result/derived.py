@@ -110,12 +110,33 @@ def body_error(number: int) -> Callable[[Numbers], float | None]:
     return error
 
 
+def film_loss(numbers: Numbers) -> float | None:
+    """Return the loss in the film [W]; None where it is not known.
+
+    By rolling that of a line or roller has the oil upstream of the grid. A thick film of a point
+    contact makes its pressure outside of the loaded zone, whose power then is not that of rolling.
+    """
+    whole = numbers.get("traction.friction_power_w")
+    if whole is None:
+        return None
+    slid, rolled = numbers.get("traction.sliding_power_w") or 0.0, numbers.get("rolling.power_w")
+    if rolled is None:
+        rolled = whole - slid if whole > slid else None
+    return None if rolled is None else float(slid + rolled)
+
+
 def power_loss(numbers: Numbers) -> float | None:
-    """Return the loss in film and solids [W]; None where `friction` is."""
-    film = numbers.get("traction.friction_power_w")
+    """Return the loss in film and solids [W]; None where `friction` is, or that of the film."""
+    film = film_loss(numbers)
     if film is None or numbers.get("traction.credible") is False:
         return None
     if not has_solids(numbers):
-        return float(film)
+        return film
     rubbed = _of_solids(numbers, "power_boundary_w")
     return None if rubbed is None else film + rubbed
+
+
+def power_error(numbers: Numbers) -> float | None:
+    """Return the bar of the loss: the larger of those of friction and of rolling."""
+    known = friction_error(numbers), numbers.get("errors.rolling")
+    return None if has_solids(numbers) else max((bar for bar in known if bar), default=None)

@@ -51,7 +51,7 @@ def of_rolling() -> Iterator[Quantity]:
             words=words_in(name, "axis list report", bar=name),
         )
     yield Quantity("rolling.force_n", attrgetter("force"), name="rolling")
-    yield from plain("rolling", "shift_m tail_share closure_error T")
+    yield from plain("rolling", "power_w shift_m tail_share closure_error T")
 
 
 def of_body(number: int) -> Iterator[Quantity]:

@@ -15,6 +15,7 @@ from tehl.result.derived import (
     lambda_error,
     largest_temperature,
     largest_temperature_error,
+    power_error,
     power_loss,
     share,
     share_error,
@@ -217,7 +218,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         },
     ),
     *plain("traction", "surface_2 rolling rolling_by_film closure_error credible"),
-    *plain("traction", "friction_power_w sliding_power_w"),
+    *plain("traction", "friction_power_w sliding_power_w rolling_across"),
     Quantity(
         "traction.across",
         name="traction_across",
@@ -229,7 +230,6 @@ QUANTITIES: tuple[Quantity, ...] = (
             "bar": "across, at mid-film",
         },
     ),
-    *plain("traction", "rolling_across"),
     Quantity(
         "traction.drilling_moment_n_m",
         name="drilling_moment",
@@ -363,7 +363,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "power",
         power_loss,
-        error=friction_error,
+        error=power_error,
         symbol="P",
         unit="W",
         words={"list": "friction loss", "page": "power loss"},

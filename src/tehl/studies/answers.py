@@ -12,6 +12,7 @@ from tehl.base.atomic import replacing
 from tehl.base.lists import check_format, lines_of_frame, plain_value
 from tehl.base.units import percentage
 from tehl.base.wording import grid_size
+from tehl.result.derived import film_loss
 from tehl.result.quantity import Quantity
 from tehl.result.registry import shown_in
 from tehl.studies.case import Row
@@ -124,6 +125,10 @@ def _obtained(row: Row | None, taken: Sequence[str] = ()) -> str:
         text = f"{text}; of the template: {', '.join(taken)}"
     if row.summary.get("traction.credible") is False:
         text = f"{text}; no friction, as this oil shears at more stress than oils bear: {_EYRING}"
+    elif (
+        row.summary.get("traction.friction_power_w") is not None and film_loss(row.summary) is None
+    ):
+        text = f"{text}; no loss, as so thick a film has its pressure outside of the loaded zone"
     return f"{text}. {row.message} {row.hint}" if row.hint else text  # converged, but uncertain
 
 
