@@ -301,7 +301,7 @@ def _transient(start: Solution, arrays: Arrays, attrs: Attributes) -> TransientS
         history=History(**history | whole),
         profiles=Profiles(**reader.columns(tables.PROFILES)),
         frames=_frames(reader, start.scaled.pressure.shape, whole["cycles"].size),
-        bars=reader.part(HistoryBars, tables.BARS),
+        bars=replace(reader, finite=False).part(HistoryBars, tables.BARS),
     )
 
 

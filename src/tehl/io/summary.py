@@ -276,6 +276,10 @@ def _history_bars(bars: HistoryBars) -> Block:
     return {
         "instants": len(bars.time),
         "h_central_m": bars.film_central.max(),
-        "h_min_m": bars.film_minimum.max(),
-        "p_max_pa": bars.pressure_max.max(),
+        "h_min_m": _known(bars.film_minimum.max()),
+        "p_max_pa": _known(bars.pressure_max.max()),
     }
+
+
+def _known(value: float) -> float | None:
+    return None if math.isnan(value) else value

@@ -114,7 +114,7 @@ class HistoryBars:
     film_minimum: Array
     """Of the film at the centre, and of the least between the nodes [m]."""
     pressure_max: Array
-    """Of the largest pressure [Pa]."""
+    """Of the largest pressure [Pa]. NaN, as ``film_minimum``, without a limit at roller ends."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, repr=False)

@@ -11,7 +11,7 @@ from tehl.estimate.settled import settled
 from tehl.operators.heights import UnresolvedError
 from tehl.post.following import Following
 from tehl.result import registry
-from tehl.result.bars import Estimate
+from tehl.result.bars import ErrorEstimate, Estimate
 from tehl.result.solution import NO_COST, ConvergenceError, Cost, Hint, Solution, Status
 from tehl.solver.cost import end_of_time
 from tehl.solver.judging.measures import SPIKE_FROM, spike_of
@@ -216,9 +216,9 @@ def widest(uncertainty: dict[str, Estimate], names: Iterable[str]) -> float:
     uncertainty : dict
         Values with their bars, by name; an extrapolated zero has an infinite relative bar.
     names : iterable of str
-        Those that are compared.
+        Those that are compared, if they have a limit.
     """
-    bars = (uncertainty[name] for name in names)
+    bars = (uncertainty[name] for name in names if name in uncertainty)
     return max(abs(bar.uncertainty / bar.value) if bar.value else math.inf for bar in bars)
 
 
@@ -299,17 +299,34 @@ def _with_bars(
         )
         for name in wider
     }
-    if finest.errors is None or finest.errors.pressure_has_limit:
-        highest = uncertainty["pressure_max"]
-        uncertainty["pressure_max"] = with_growing_spike(highest, reach_of_spike(used))
-    else:
-        del uncertainty["pressure_max"]
+    highest = uncertainty["pressure_max"]
+    uncertainty["pressure_max"] = with_growing_spike(highest, reach_of_spike(used))
     if finest.problem.contact.type == "roller" and finest.errors is not None:
         # before its ends the film shows one order on fine grids alone: the bar of the solve too
         least, bar = uncertainty["film_minimum"], finest.errors.of("film_minimum") or 0.0
         larger = max(least.uncertainty, bar * abs(least.value))
         uncertainty["film_minimum"] = replace(least, uncertainty=larger)
-    return finest.but(uncertainty=uncertainty)
+    return finest.but(uncertainty=with_limits(uncertainty, finest.errors))
+
+
+def with_limits(
+    uncertainty: dict[str, Estimate], errors: ErrorEstimate | None
+) -> dict[str, Estimate]:
+    """Return the error bars without those of values that have no limit at the ends of a roller.
+
+    Parameters
+    ----------
+    uncertainty : dict
+        Values with their bars, by name.
+    errors : ErrorEstimate or None
+        Of the finest grid.
+    """
+    limits = (
+        {}
+        if errors is None
+        else {"film_minimum": errors.minimum_has_limit, "pressure_max": errors.pressure_has_limit}
+    )
+    return {name: bar for name, bar in uncertainty.items() if limits.get(name, True)}
 
 
 def _quantities(result: Solution) -> dict[str, float]:

@@ -30,6 +30,7 @@ from tehl.solver.judging.certify import (
     too_coarse_to_certify,
     widened,
     widest,
+    with_limits,
 )
 from tehl.solver.judging.richardson import (
     SPIKE_GROWTH,
@@ -109,9 +110,9 @@ def certify_transient(
     runs = tuple(one for one in (coarse.result, middle.result, finest) if one is not None)
     result = replace(
         finest,
-        status=replace(finest.status, message=_message(finest, coarse, middle, wide), hint=None),
+        status=replace(finest.status, message=_message(finest, coarse, middle, wide)),
         cost=finest.cost + coarse.cost + wide.cost,
-        uncertainty=estimates(runs, wide.result),
+        uncertainty=with_limits(estimates(runs, wide.result), finest.start.errors),
         bars=history_bars(runs, wide.result),
     )
     worst = widest(result.uncertainty, JUDGED)
@@ -124,6 +125,8 @@ def _message(finest: TransientSolution, coarse: Other, middle: Other, wide: Othe
     """Return how each run ended, and what follows for the bars."""
     last = f"{nodes_of(finest.start.grid_options)} {finest.status.outcome}"
     message = message_on([coarse.ending, middle.ending, last], wide.ending)
+    if finest.status.is_vague:
+        message = f"{finest.status.message} {message}"
     return message if coarse.result is not None else f"{message} {WITHOUT_FIRST}"
 
 
@@ -238,11 +241,17 @@ def history_bars(runs: Runs, wide: TransientSolution) -> HistoryBars:
         On the larger domain, with the mesh width of the second finest run.
     """
     growth = _growth(runs)[:: 2 ** (len(runs) - 2)]
+    errors, times = runs[-1].start.errors, _shared(runs, "time")[-1]
+    thins, presses = (
+        errors is not None and not getattr(errors, f"{name}_has_limit")
+        for name in ("minimum", "pressure")
+    )
+    unknown = np.full(times.shape, np.nan)
     return HistoryBars(
-        time=_shared(runs, "time")[-1],
+        time=times,
         film_central=_bar(runs, wide, "film_central"),
-        film_minimum=_bar(runs, wide, "film_minimum"),
-        pressure_max=_bar(runs, wide, "pressure_max", growth),
+        film_minimum=unknown if thins else _bar(runs, wide, "film_minimum"),
+        pressure_max=unknown if presses else _bar(runs, wide, "pressure_max", growth),
     )
 
 
