@@ -18,7 +18,7 @@ from tehl.solver.cycle.film_solver import FilmSolver, Solved
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.judging.convergence import TimeIsOverError
-from tehl.solver.judging.diagnosis import diverged, time_over
+from tehl.solver.judging.diagnosis import diverged, reached_hint, time_over
 from tehl.solver.judging.extrapolation import Outputs, unfolded
 from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.remedy import Reached
@@ -201,7 +201,12 @@ def _better(best: Attempt | None, attempt: Attempt) -> Attempt:
         films.append(run.reached_before(last=status.cause == NO_MEMORY))
     known = [film for film in films if film is not None]
     kept = attempt if best is None or attempt.rank <= best.rank else best
-    return replace(kept, reached_before=min(known, key=lambda film: film[1], default=None))
+    before = min(known, key=lambda film: film[1], default=None)
+    status = kept.status
+    if before is not None and status.is_vague and not kept.run.finest.grid.crowding:
+        hint = reached_hint(*before, ", with the film at the ends")  # on lines that crowd there
+        status = replace(status, hint=hint if hint.settings else status.hint)
+    return replace(kept, status=status, reached_before=before)
 
 
 def _run(run: FilmSolver, *, force: bool, solved: tuple[Solved, ...]) -> Attempt:

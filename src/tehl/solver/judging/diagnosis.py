@@ -157,8 +157,20 @@ def _error_hint(run: FilmSolver) -> Hint | None:
     reached = run.reached_before()
     if reached is None:
         return None
-    (nx, ny), error = reached
-    advice = f"{grid_size((nx, ny))} converged to an error of {percentage(error)}."
+    return reached_hint(*reached)
+
+
+def reached_hint(nodes: tuple[int, int], error: float, what: str = "") -> Hint:
+    """Return the hint to an error that a film on coarser nodes (nx, ny) reached.
+
+    Parameters
+    ----------
+    nodes, error : (int, int), float
+        Of that film, and its relative error [-].
+    what : str
+        What it has beside, for the end of the sentence.
+    """
+    advice = f"{grid_size(nodes)} converged to an error of {percentage(error)}{what}."
     return Hint(advice, error_setting(error))
 
 
