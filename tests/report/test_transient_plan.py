@@ -1,5 +1,6 @@
 """Plan of a transient run before the solve."""
 
+import numpy as np
 import pytest
 
 from tehl.api.problem import case_from_tables
@@ -39,8 +40,12 @@ def test_steps_follow_from_the_mesh_and_the_mean_speed():
 
 def test_speeds_are_those_of_both_surfaces():
     found, *_ = plan(slide_roll_ratio=1.0)
-    assert found.speeds_m_s == pytest.approx((2.25, 0.75))
+    assert np.array(found.speeds_m_s) == pytest.approx(np.array([[2.25] * 3, [0.75] * 3]))
     assert found.shift_per_step == pytest.approx((1.5, 0.5))
+    slides = {"slide_roll_ratio": [["0 s", 1.0], ["1 ms", 0.0]]}
+    changing, *_ = plan(transient=slides)
+    ranges = np.array([[2.25, 1.5, 2.25], [0.75, 0.75, 1.5]])
+    assert np.array(changing.speeds_m_s) == pytest.approx(ranges)
 
 
 def test_a_wave_of_few_points_is_reported():
@@ -50,7 +55,7 @@ def test_a_wave_of_few_points_is_reported():
 
 def test_asperities_that_jump_are_reported():
     found, *_ = plan(slide_roll_ratio=1.5, transient={"stride": 2})
-    assert any("1.5 mesh widths per step ahead of" in one for one in found.questions)
+    assert any("1.5 mesh widths per step away from" in one for one in found.questions)
 
 
 def test_an_explanation_has_a_plan_only_of_a_transient_run():

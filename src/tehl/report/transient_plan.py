@@ -1,13 +1,13 @@
 """A transient run before it is computed: duration, steps, cost, resolution of its waves."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from tehl.base.units import percentage
-from tehl.contact.moment import SAMPLES, courses_of
+from tehl.contact.moment import SAMPLES, courses_of, moments_of
 from tehl.contact.options import Options
 from tehl.estimate.duration import (
     MOST_FOR_COURSES,
@@ -50,13 +50,14 @@ class TransientPlan:
     """Estimated CPU time [s]."""
     distance: float
     """Distance that the mean of both surfaces moves on [a_x]."""
-    speeds_m_s: tuple[float, float]
-    """Of both surfaces [m/s]."""
+    speeds_m_s: tuple[tuple[float, float, float], ...]
+    """Of each surface at the start, the least and the largest [m/s]."""
     points_per_wave: tuple[float | None, ...]
     """Mesh widths on the shortest wave of each surface, along the axis that has fewer [-]; None for
     a smooth one."""
     shift_per_step: tuple[float, float]
-    """Mesh widths that each surface moves on per step [-]; the mean moves by ``stride``."""
+    """Mesh widths that each surface moves on per step at the most [-]; the mean moves by
+    ``stride`` at the stated speed."""
     changes: tuple[tuple[str, float, float], ...]
     """Keys of what changes in time, with the least and the largest number."""
     questions: tuple[str, ...]
@@ -93,8 +94,10 @@ def transient_plan(
         start, cost = 0.08, 1.5e-5 * (1 if halves else 2)
     waves = (one.roughness.shortest_wavelengths for one in problem.surfaces)
     first, second = (min(wave[0] / dx, wave[1] / dy) for wave in waves)
-    speeds = (problem.motion.speed_1, problem.motion.speed_2)
-    shift = (stride * speeds[0] / units.speed, stride * speeds[1] / units.speed)
+    moments = moments_of(problem, duration)
+    speeds = units.speed * np.array([one.speeds for one in moments])
+    leads = np.abs(speeds - speeds.mean(axis=1, keepdims=True)).max(axis=0)
+    shift, lead = (stride / units.speed * one for one in (np.abs(speeds).max(axis=0), leads))
     halved = halvings(scaled, options, (nx, None), stride, steps) if halves else ()
     seconds, limit = 0.0, options.max_time
     for nodes, widths, number in parts_of_run(nx, stride, steps, halved):
@@ -112,12 +115,12 @@ def transient_plan(
         halved_s=tuple(step * duration / steps for step in halved),
         seconds=seconds,
         distance=_distance(scaled, step, steps),
-        speeds_m_s=speeds,
+        speeds_m_s=tuple((float(one[0]), float(one.min()), float(one.max())) for one in speeds.T),
         points_per_wave=tuple(one if math.isfinite(one) else None for one in (first, second)),
-        shift_per_step=shift,
+        shift_per_step=(float(shift[0]), float(shift[1])),
         changes=tuple(_changes(scaled, duration)),
         questions=(
-            *_questions(scaled, duration, (first, second), shift),
+            *_questions(scaled, duration, (first, second), zip(shift, lead, strict=True)),
             *_jumps(scaled, steps),
             *ends,
         ),
@@ -153,24 +156,29 @@ def _changes(scaled: ScaledProblem, duration: float) -> Iterator[tuple[str, floa
 
 
 def _questions(
-    scaled: ScaledProblem, duration: float, points: tuple[float, float], shifts: tuple[float, float]
+    scaled: ScaledProblem,
+    duration: float,
+    points: tuple[float, float],
+    shifts: Iterable[tuple[float, float]],
 ) -> Iterator[str]:
-    """Yield what is not plausible, a sentence each."""
+    """Yield what is not plausible, a sentence each.
+
+    ``points`` and ``shifts`` are of each surface: on its shortest wave; and mesh widths per step at
+    the most, of itself and away from the mean motion.
+    """
     stride = scaled.problem.transient.stride if scaled.problem.transient else 1
     sentence = misplaced(scaled, duration)
     if sentence is not None:
         yield sentence
-    for name, one, shift in zip(("surface_1", "surface_2"), points, shifts, strict=True):
+    for name, one, (shift, lead) in zip(("surface_1", "surface_2"), points, shifts, strict=True):
         if one < RESOLVES:
             yield (
                 f"{name} has {one:.3g} points on its shortest wave: the grid flattens the wave "
                 f"more than the film does; take {RESOLVES} or more (numerics.points)"
             )
-        lead = abs(shift - stride)
         if math.isfinite(one) and lead > 1.0:
-            where = "ahead of" if shift > stride else "behind"
             yield (
-                f"{name} moves {lead:.2g} mesh widths per step {where} the mean motion, so its "
+                f"{name} moves {lead:.2g} mesh widths per step away from the mean motion, so its "
                 f"asperities jump: take a smaller transient.stride (now {stride})"
             )
         if shift > 0.25 * one:
