@@ -46,10 +46,8 @@ class Traction:
     """Normal load w [N]."""
     sheared: float
     """Size of the mid-film stress, whatever its direction is at each place, over the load [-]."""
-    friction_power: float
-    """Power that the surfaces transfer to the film in the loaded zone [W]."""
-    sliding_power: float
-    """Part of it by sliding, of the mid-film stress; the other part is by rolling [W]."""
+    powers: tuple[float, float]
+    """`friction_power` and `sliding_power` [W]."""
     surroundings: Surroundings | None = None
     """Drag of the flooded oil around the loaded zone; None for starved films, and where surfaces
     slide across the entrainment or spin."""
@@ -60,6 +58,16 @@ class Traction:
     drilling_moment: float | None = None
     """Moment of the mid-film stress on surface 1 about z at the centre, from x to y [N m]; that on
     surface 2 is opposite. None if neither surface spins."""
+
+    @property
+    def friction_power(self) -> float:
+        """Return the power that the surfaces transfer to the film in the loaded zone [W]."""
+        return self.powers[0]
+
+    @property
+    def sliding_power(self) -> float:
+        """Return the part of it by sliding, of the mid-film stress; the rest is by rolling [W]."""
+        return self.powers[1]
 
     @property
     def size(self) -> float:
@@ -120,10 +128,8 @@ def traction(result: Solution) -> Traction | None:
         integral(stress - rubbed) for stress in (shear.surface_1, shear.mid_film, shear.surface_2)
     )
     push = integral(film * _slope(pressure, result.x))
-    powers = {
-        "friction_power": second * motion.speed_2 - first * motion.speed_1,
-        "sliding_power": middle * (motion.speed_2 - motion.speed_1) + 0.0,
-    }
+    whole = second * motion.speed_2 - first * motion.speed_1
+    powers = whole, middle * (motion.speed_2 - motion.speed_1) + 0.0
     others: dict[str, float] = {}
     if not motion.is_plain:
         powers, others = _across(result, np.where(inside, area, 0.0), meet)
@@ -138,14 +144,14 @@ def traction(result: Solution) -> Traction | None:
         sheared=integral(np.hypot(shear.mid_film - rubbed, np.where(meet, 0.0, shear.across)))
         / load,
         surroundings=surroundings(result, shear, wet - area, load) if motion.is_plain else None,
-        **powers,
+        powers=powers,
         **others,
     )
 
 
 def _across(
     result: Solution, area: Array, meet: BoolArray | bool
-) -> tuple[dict[str, float], dict[str, float]]:
+) -> tuple[tuple[float, float], dict[str, float]]:
     """Return the powers [W], and what `Traction` has of motion that is not along x alone.
 
     ``area`` is that of each node in the loaded zone [m^2]. Where surfaces ``meet`` there is no
@@ -170,7 +176,7 @@ def _across(
     if motion.spin_1 or motion.spin_2:
         turning = x * shear.across - y * shear.mid_film
         found["drilling_moment"] = float(np.sum(free * turning))
-    return {"friction_power": power, "sliding_power": -float(np.sum(free * sheared))}, found
+    return (power, -float(np.sum(free * sheared))), found
 
 
 def under_pressure(result: Solution) -> Array:
