@@ -22,7 +22,7 @@ def test_the_sample_of_the_readme_is_what_solve_prints():
         assert NUMBER.sub("", line) == NUMBER.sub("", printed)
         found, wanted = (list(map(float, NUMBER.findall(text))) for text in (line, printed))
         assert found == pytest.approx(wanted, rel=0.02)
-    assert len(shown) == 4
+    assert len(shown) == 5
 
 
 def test_the_files_to_which_the_readme_leads_exist():

@@ -463,3 +463,16 @@ def test_the_hertz_pressure_of_a_circle_grows_with_load_and_curvature():
     course = {"duration": "1 ms", "load": [["0 ms", 1.0], ["1 ms", 8.0]]}
     ball = ScaledProblem.of(case_from_tables(ball_tables(transient=course))[0])
     assert extremes_of(ball)[1] == pytest.approx(2.0 * ball.problem.hertz.pressure)
+
+
+def test_a_roller_on_a_sharp_end_and_a_bump_beside_the_contact_are_named():
+    tables = tomllib.loads(template_text("roller"))
+    assert "sharp end" not in " ".join(explain(*case_from_tables(tables)).questions)
+    tilted = tables | {"contact": tables["contact"] | {"tilt": "0.05 deg"}}
+    asked = " ".join(explain(*case_from_tables(tilted)).questions)
+    assert re.search("sharp end of the roller carries .* of the largest load", asked)
+    bump = {"type": "bump", "amplitude": "1 um", "radius": "50 um"}
+    for place, beside in (("0 mm", False), ("20 mm", True)):
+        case = tables | {"surface_1": {"material": "steel", "roughness": bump | {"y": place}}}
+        asked = " ".join(explain(*case_from_tables(case)).questions)
+        assert ("the bump lies beside the contact" in asked) is beside

@@ -59,7 +59,7 @@ def between_asperities() -> CoarsestSolver:
     """Return the solved coarsest grid of a line that runs dry between asperities."""
     hierarchy = multigrid(mixed_line(), Options(points=(129, 1))).hierarchy
     from_dry_pressure(hierarchy.levels[0], hierarchy.expected_film)
-    changes = [hierarchy.coarsest.newton_step() for _ in range(16)]
+    changes = [hierarchy.coarsest.newton_step() for _ in range(24)]
     assert changes[-1] < 1e-9
     hierarchy.levels[0].update()
     return hierarchy.coarsest

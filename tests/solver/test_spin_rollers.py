@@ -9,6 +9,7 @@ from benchmarks import any_contacts
 from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import Result
 from tehl.api.solvers import solve, solve_transient
+from tehl.contact.moment import Moment
 from tehl.contact.options import ROLLER_ENDS, Domain, Options
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
@@ -184,7 +185,7 @@ def test_oil_beyond_the_inlet_comes_with_the_speed_of_its_line():
     pressure = np.zeros(grid.shape)
     wide = Domain.model_construct(x=(-1.5, 3.0), y=ROLLER_ENDS)
     turned = Grid(nx=NODES[0], ny=NODES[1], domain=wide, mirror=False, crowding=1.0)
-    far_field(turned, entering, -1.0, slower).set_edges(pressure, film)
+    far_field(turned, entering, Moment(speed=-1.0), slower).set_edges(pressure, film)
     np.testing.assert_allclose(pressure[::-1, -1], edges[1], rtol=1e-9, atol=1e-15)
 
 

@@ -48,6 +48,10 @@ class Moment:
         return (self.speed, 0.0), (first, half), (second, -half)
 
 
+STEADY = Moment()
+"""That of a contact in which nothing changes, without sliding."""
+
+
 def moment_at(problem: PointContact, time: float) -> Moment:
     """Return the moment of a contact at a time since the start [s].
 

@@ -6,6 +6,7 @@ from tehl.contact.moment import SAMPLES, Moment, courses_of, frozen, moments_of
 from tehl.contact.options import Domain
 from tehl.estimate.duration import duration_of, steps_of_courses
 from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.summits import shared_load
 
 PART_IN_STEP = 0.25
 """Part of the error to reach by which a load, a speed or a radius may be off a straight line within
@@ -74,6 +75,21 @@ def films_of(
         else None
         for one in moments
     ]
+
+
+def first_gap(scaled: ScaledProblem) -> float:
+    """Return the gap to expect in the middle at the start of a run, or of a steady contact [-].
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Its moment is that of the start. A cam whose contact is stated at the nose has ten times its
+        film on the flank.
+    """
+    own = scaled
+    if courses_of(scaled.problem) and scaled.moment.is_possible and scaled.moment.speed > 0.0:
+        own = ScaledProblem.of(frozen(scaled.problem, scaled.moment))
+    return shared_load(own).gap * own.scales.film_thickness / scaled.scales.film_thickness
 
 
 def _posed(stated: ScaledProblem, own: ScaledProblem, domain: Domain) -> Posed:

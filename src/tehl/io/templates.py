@@ -9,7 +9,8 @@ _NAMES = {
     "cases": (
         *("ball-on-disc", "moes", "bearing", "gear-ellipse", "line", "roller", "rough", "thermal"),
         *("dimple", "data-sheet", "passing-dent", "starved", "grease-decay", "mixed"),
-        *("boundary-film", "gear-mesh", "reversal", "stress", "dynamics", "hypoid", "spin", "rib"),
+        *("boundary-film", "gear-mesh", "cam", "reversal", "stress", "dynamics", "hypoid", "spin"),
+        "rib",
     ),
     "studies": (
         *("traction-curve", "film-vs-speed", "film-vs-load", "moes-map", "stribeck"),

@@ -21,6 +21,7 @@ import numpy as np
 from scipy.linalg import solve_banded
 
 from tehl.base.typing import Array, BoolArray
+from tehl.contact.moment import STEADY, Moment
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 from tehl.operators.upstream import EdgeSlopes, UpstreamField
@@ -97,9 +98,9 @@ class Gap(NamedTuple):
         return np.asarray(np.minimum(np.abs(along), np.abs(across)))
 
 
-def gap_of(groups: Groups) -> Gap:
-    """Return the rigid gap far from a contact."""
-    return Gap(groups.radius_ratio, groups.twist / groups.ellipticity)
+def gap_of(groups: Groups, curvature: float = 1.0) -> Gap:
+    """Return the rigid gap far from a contact, over its curvature along x."""
+    return Gap(groups.radius_ratio / curvature, groups.twist / groups.ellipticity / curvature)
 
 
 @lru_cache(maxsize=16)
@@ -200,7 +201,9 @@ def inlet_approach(film: Array, gap: Array) -> float:
     return max(float(np.mean(film[:, 0] - gap[:, 0])), 1e-9)
 
 
-def far_field(grid: Grid, groups: Groups, speed: float = 1.0, slower: Array | float = 0.0) -> Edges:
+def far_field(
+    grid: Grid, groups: Groups, moment: Moment = STEADY, slower: Array | float = 0.0
+) -> Edges:
     """Return the pressure on the edges of a grid and the load outside of it.
 
     Parameters
@@ -209,21 +212,22 @@ def far_field(grid: Grid, groups: Groups, speed: float = 1.0, slower: Array | fl
         Its edges.
     groups : Groups
         Shape, and lambda of the oil that enters.
-    speed : float
-        Entrainment speed over that of the contact [-].
+    moment : Moment
+        Speed, radius and load.
     slower : Array or float
         What spin takes from it on each row: oil outside of an ellipse does not depend on that
         (docs/theory/directions.md).
     """
-    if speed < 0.0:
+    if moment.speed < 0.0:
         domain = grid.domain
         x, y = ((-high, -low) for low, high in (domain.x, domain.y))
         turned = replace(grid, domain=domain.model_copy(update={"x": x, "y": y}))
-        forwards = far_field(turned, groups, -speed, -np.flip(slower))
+        forwards = far_field(turned, groups, replace(moment, speed=-moment.speed), -np.flip(slower))
         return Turned(forwards, 1 if grid.mirror else -1)
     if groups.shape.as_line:
-        return UpstreamField(grid, groups, speed - slower)
-    return FarField(grid, replace(groups, lambda_bar=speed * groups.lambda_bar))
+        return UpstreamField(grid, groups, moment, slower)
+    entering = replace(groups, lambda_bar=moment.speed * groups.lambda_bar)
+    return FarField(grid, entering, moment.curvature)
 
 
 class Turned:
@@ -253,11 +257,13 @@ class FarField:
         Its edges.
     groups : Groups
         Lambda, radius ratio and ellipticity.
+    curvature : float
+        1/R_x over that of the contact [-].
     """
 
-    def __init__(self, grid: Grid, groups: Groups) -> None:
+    def __init__(self, grid: Grid, groups: Groups, curvature: float = 1.0) -> None:
         self.groups = groups
-        gap, stretch = gap_of(groups), groups.ellipticity
+        gap, stretch = gap_of(groups, curvature), groups.ellipticity
         angle, f = angular_pressure(gap)
         squeeze = groups.lambda_bar * angular_squeeze(gap)
         # each edge with 2 lambda r g^2 f and lambda g^2 q / 4 at its nodes
@@ -272,13 +278,13 @@ class FarField:
             self.squeezed.append(0.25 * shape * np.interp(at, angle, squeeze))
         # the load outside, ray by ray where the oil is not cavitated
         wet = f > 0.0
-        self.growth = gap.growth(angle[wet])
+        self.growth = curvature * gap.growth(angle[wet])
         low, high = grid.domain.y
         radii = gap.radii(angle, grid.domain.x, (stretch * low, stretch * high))
         self.radius = np.ascontiguousarray(radii[:, wet])
         width = np.full(angle.size, angle[1] - angle[0])
         width[[0, -1]] *= 0.5
-        self.weight = 8.0 * groups.lambda_bar / stretch * (f * width)[wet]
+        self.weight = 8.0 * groups.lambda_bar / stretch / curvature**2 * (f * width)[wet]
         self.squeeze_weight = 0.25 * (squeeze * width)[wet] * self.growth / stretch
 
     def set_edges(self, pressure: Array, film: Array) -> None:

@@ -20,6 +20,7 @@ from scipy.sparse import csr_array, diags_array, eye_array, kron
 from scipy.sparse.linalg import splu
 
 from tehl.base.typing import Array, BoolArray
+from tehl.contact.moment import Moment
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.estimate.spin import flooded_reach, load_per_e_fold, slowing, spin_number
@@ -101,19 +102,19 @@ class FarSpin:
         Its edges.
     groups : Groups
         Lambda, radius ratio and ellipticity.
-    motion : (float, float)
-        Speed and spin of `far_pressure`.
+    moment, spin : Moment, float
+        Speed and radius; and spin of `far_pressure`.
     reach : float
         Radius where the oil ends [a_x].
     """
 
     def __init__(
-        self, grid: Grid, groups: Groups, motion: tuple[float, float], reach: float
+        self, grid: Grid, groups: Groups, moment: Moment, spin: float, *, reach: float
     ) -> None:
-        gap, amplitude = gap_of(groups), 2.0 * groups.lambda_bar
+        gap, amplitude = gap_of(groups, moment.curvature), 2.0 * groups.lambda_bar
         x, y = grid.x, groups.ellipticity * grid.y
         nearest = min(float(np.abs(one[[0, -1]]).min()) for one in (x, y))
-        f = far_pressure(gap, *motion, (INNERMOST * nearest, max(reach, nearest)))
+        f = far_pressure(gap, moment.speed, spin, (INNERMOST * nearest, max(reach, nearest)))
         self.edges: list[tuple[Edge, Array]] = []
         for edge, along, across in edges_of(grid, groups.ellipticity):
             at, radius = np.mod(np.arctan2(across, along), 2.0 * np.pi), np.hypot(along, across)
@@ -128,7 +129,7 @@ class FarSpin:
         there = f((np.log(radius), np.broadcast_to(angle, radius.shape)))
         there *= 0.5 * weight[:, None] * length * step / groups.ellipticity
         growth = gap.growth(angle)
-        self.rigid = 0.5 * growth * radius**2
+        self.rigid = 0.5 * moment.curvature * growth * radius**2
         self.weight = amplitude * radius**3 * growth**2 * there
 
     def set_edges(self, pressure: Array, film: Array) -> None:
@@ -141,17 +142,17 @@ class FarSpin:
         return float((self.weight / (inlet_approach(film, gap) + self.rigid) ** 2).sum())
 
 
-def oil_outside(grid: Grid, scaled: ScaledProblem, speed: float) -> Edges:
+def oil_outside(grid: Grid, scaled: ScaledProblem, moment: Moment) -> Edges:
     """Return the pressure on the edges of a grid and the load outside of it.
 
     Parameters
     ----------
     grid, scaled : Grid, ScaledProblem
         Its edges, and the contact.
-    speed : float
-        Entrainment speed over that of the contact [-].
+    moment : Moment
+        Speed, radius and load.
     """
     groups = scaled.entering
     if load_per_e_fold(scaled) == 0.0:
-        return far_field(grid, groups, speed, slowing(scaled, grid.y))
-    return FarSpin(grid, groups, (speed, spin_number(scaled)), flooded_reach(scaled))
+        return far_field(grid, groups, moment, slowing(scaled, grid.y))
+    return FarSpin(grid, groups, moment, spin_number(scaled), reach=flooded_reach(scaled))

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tehl.base.typing import Array
-from tehl.contact.moment import Moment
+from tehl.contact.moment import STEADY, Moment
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import Groups
 
@@ -85,7 +85,7 @@ def beyond(
     groups: Groups,
     *,
     speed: Array,
-    curvature: float = 1.0,
+    moment: Moment = STEADY,
 ) -> Beyond:
     """Return what the oil upstream of an edge does.
 
@@ -99,11 +99,11 @@ def beyond(
         lambda and alpha p_h of the oil that enters.
     speed : (n,) array
         Of each line towards the contact, over that of ``groups`` [-].
-    curvature : float
-        1/R_x over that of the contact [-].
+    moment : Moment
+        Radius and load, by which the gap opens.
     """
     places = _places(edge)
-    h = film[:, None] + (curvature * places.parabola + places.bent)
+    h = film[:, None] + (moment.curvature * places.parabola + moment.load * places.bent)
     slope = groups.lambda_bar * speed[:, None] * places.lengths * (h - flux[:, None])  # P' |dX|
     slope /= h * h * h
     thicker = np.minimum(groups.alpha_bar * slope.sum(axis=1), MOST_THICKENING)
@@ -156,8 +156,8 @@ def rolling(
     tail = 0.0
     if oil is not None and moment.speed != 0.0:
         speed = _incoming(sign * (moment.speed - lines.slower), film.shape[0])
-        flux, curvature = np.minimum(oil, film[:, 0]), moment.curvature
-        upstream = beyond(float(x[0]), film[:, 0], flux, groups, speed=speed, curvature=curvature)
+        flux = np.minimum(oil, film[:, 0])
+        upstream = beyond(float(x[0]), film[:, 0], flux, groups, speed=speed, moment=moment)
         tail = float(upstream.rolling @ widths)
     flow = np.sum(0.5 * (film[:, 1:] + film[:, :-1]) * np.diff(pressure), axis=1)
     centre = -moment.curvature * np.trapezoid(x * pressure, x)
@@ -180,13 +180,17 @@ class UpstreamField:
         Its inlet edge.
     groups : Groups
         Lambda of the oil that enters.
-    speed : Array or float
-        Of each line over that of the contact [-].
+    moment : Moment
+        Its speed, radius and load.
+    slower : Array or float
+        What spin takes from the speed of each line, over that of the contact [-].
     """
 
-    def __init__(self, grid: Grid, groups: Groups, speed: Array | float) -> None:
-        self.edge, self.groups = grid.domain.x[0], groups
-        self.speed = _incoming(speed, grid.shape[0])
+    def __init__(
+        self, grid: Grid, groups: Groups, moment: Moment, slower: Array | float = 0.0
+    ) -> None:
+        self.edge, self.groups, self.moment = grid.domain.x[0], groups, moment
+        self.speed = _incoming(moment.speed - slower, grid.shape[0])
         self.middle = int(np.argmin(np.abs(grid.x)))
         self.widths = grid.widths
 
@@ -227,13 +231,10 @@ class UpstreamField:
         del gap
         inlet = film[:, 0]
         flux, step = np.minimum(film[:, self.middle], inlet), 1e-4 * inlet
-        higher, lower = (
-            beyond(self.edge, inlet + change, flux, self.groups, speed=self.speed)
-            for change in (step, -step)
-        )
+        higher, lower = (self._at(inlet + change, flux) for change in (step, -step))
         places = _places(self.edge)
         fastest = self.groups.lambda_bar * self.speed[:, None]
-        gap = inlet[:, None] + places.parabola + places.bent
+        gap = inlet[:, None] + places.parabola + places.bent  # of a steady film
         per_flux = -fastest * places.lengths / gap**3
         by_flux, load_by_flux, load_by_rate = (per_flux @ places.away**power for power in range(3))
         by_film, by_rate = np.zeros_like(film), np.zeros_like(film)
@@ -251,4 +252,8 @@ class UpstreamField:
     def _beyond(self, film: Array) -> Beyond:
         inlet = np.maximum(film[:, 0], 0.5 * self.edge**2 * 1e-3)
         flux = np.minimum(np.maximum(film[:, self.middle], 0.0), inlet)
-        return beyond(self.edge, inlet, flux, self.groups, speed=self.speed)
+        return self._at(inlet, flux)
+
+    def _at(self, inlet: Array, flux: Array) -> Beyond:
+        moment = self.moment
+        return beyond(self.edge, inlet, flux, self.groups, speed=self.speed, moment=moment)

@@ -4,12 +4,10 @@ import math
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from tehl.base.typing import np
 from tehl.base.units import percentage
 from tehl.contact.heat import FAR_BODY, LAYERS
 from tehl.contact.options import MOST_NODES_PER_AXIS, Domain, Options
 from tehl.contact.problem import ContactProblem
-from tehl.contact.roller import ENDS
 from tehl.contact.summits import GreenwoodTripp
 from tehl.contact.tables import Surface
 from tehl.estimate.domain import domain_error, domain_of, proposed_domain
@@ -27,6 +25,7 @@ from tehl.estimate.spin import flooded_reach, outside_by_spin
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
 from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
+from tehl.report.placement import about_ends, about_places
 from tehl.report.roughness import CONVERGES, RESOLVES, Asperities
 
 SLIDING, WARM = 0.02, 5.0
@@ -42,10 +41,6 @@ STEEP_HEIGHTS = 0.6
 """Rms pressure that flattens the heights over p_h, from which on runs may not converge: of random
 surfaces (M = 16 to 500) 0.41 and 0.56 take a second, 0.64 with heat minutes, of those with 0.79 and
 more some do not converge on 257 nodes."""
-SHARP_END, TOUCHING = 0.5, 0.5
-"""Load at an end of a roller over the largest along it, from which on its sharp end carries, and
-part of the length that touches below which the cycles do not converge then: 0.56 and 0.68 do, 0.44
-and 0.25 do not (dry slices)."""
 SHARP = (1e-4, 1e-2)
 """Height of asperities over the radius of their summits: of machined surfaces."""
 LIMIT_ROUNDING = 1e-9
@@ -111,7 +106,8 @@ def questions(
         *(question for question in ranges if question),
         *_about_groove(scaled.problem),
         *_about_limits(scaled.problem),
-        *_about_ends(scaled),
+        *about_ends(scaled),
+        *about_places(scaled),
         *_about_film(scaled),
         *_about_sliding(scaled, heat),
         *_about_heat(scaled.problem, heat),
@@ -231,21 +227,6 @@ def _about_limits(problem: ContactProblem) -> Iterator[str]:
         yield (
             f"Hertz pressure = {highest / 1e9:.3g} GPa: the constants of {name} are known up to "
             f"{limits.pressure / 1e9:.3g} GPa"
-        )
-
-
-def _about_ends(scaled: ScaledProblem) -> Iterator[str]:
-    """Yield a roller that rests on the sharp end of it alone."""
-    roller, hertz = scaled.groups.roller, scaled.problem.hertz
-    if roller is None or roller.goes_on:
-        return
-    part, most = roller.loaded_part, roller.widest
-    if part < TOUCHING and max(roller.share(np.array(ENDS))) > SHARP_END * most**2:
-        pressure = hertz.pressure * most / 1e9
-        yield (
-            f"the roller touches on about {percentage(part)} of its length, up to its sharp end, "
-            f"at more than {pressure:.2g} GPa: a run may take minutes and not converge; check "
-            "tilt or moment and load"
         )
 
 

@@ -81,6 +81,8 @@ def _mean_fields(model: Model, fields: Fields, line: Record, layers: Records, pl
     fluid = exponential(-first.ln_eta)
     fields.mobility[i, rows] = first.rho * fluid / fields.effective[i, rows]
     fields.density[i, rows] = first.rho
+    if model.terms.plain:
+        fields.density[i, rows] = (line.speed_x + 0.5 * line.slide_x) * first.rho
     fields.mean_density[i, rows] = first.rho
     fields.odd_density[i, rows] = 0.0
 

@@ -142,11 +142,14 @@ class Equations:
             Load, motion and radius; and the contact.
         """
         balances = self.balances._replace(target=moment.load * self.groups.shape.load)
-        if (moment.speed, moment.curvature) == (scaled.moment.speed, scaled.moment.curvature):
+        stated = scaled.moment
+        if (moment.speed, moment.curvature) == (stated.speed, stated.curvature) and (
+            moment.load == stated.load or not self.groups.shape.as_line
+        ):
             return replace(self, balances=balances)
         outside = self.outside
         if outside.far_field is not None:
-            far = oil_outside(self.grid, scaled, moment.speed)
+            far = oil_outside(self.grid, scaled, moment)
             outside = outside._replace(far_field=far)
         return replace(
             self,
@@ -179,7 +182,7 @@ class Equations:
         conserves = scaled.problem.conserves_oil
         film, far, spins = scaled.problem.contact_film, None, spin_number(scaled) != 0.0
         if options.has_far_field and oil is None:
-            far = oil_outside(grid, scaled, moment.speed)
+            far = oil_outside(grid, scaled, moment)
         modes, moments = rigid_motions(grid, groups)
         return cls(
             grid=grid,

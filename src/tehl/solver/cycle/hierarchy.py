@@ -8,9 +8,9 @@ import numpy as np
 
 from tehl.contact.options import Options
 from tehl.estimate.grid import Grid, long_grids
+from tehl.estimate.in_time import first_gap
 from tehl.estimate.levels import levels_of
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.summits import shared_load
 from tehl.operators.flow import flow_table
 from tehl.solver.cycle.coarsest import CoarsestSolver
 from tehl.solver.cycle.equations import Equations
@@ -89,7 +89,7 @@ class Hierarchy:
         options, relaxation : Options, Relaxation
             Wedge order and deformation; settings of the smoother.
         """
-        flow, film = flow_table(scaled), shared_load(scaled).gap
+        flow, film = flow_table(scaled), first_gap(scaled)
         grids, is_long = levels_of(finest, scaled)
         levels = [Level(Equations.on(g, scaled, flow, options), relaxation) for g in grids]
         return cls(scaled, options, levels, CoarsestSolver(levels[0]), film, is_long)

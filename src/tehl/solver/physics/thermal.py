@@ -388,11 +388,12 @@ class Coupling:
 
     def _couple(self, state: FilmState, levels: Sequence[Level]) -> None:
         """Compute the factors of heat and thinning and set them on all of ``levels``."""
-        fine, names = levels[-1], properties.Heated._fields
-        shape = fine.grid.shape
+        fine, shape, names = levels[-1], levels[-1].grid.shape, properties.Heated._fields
         heated = properties.Heated(*(np.ascontiguousarray(state.view(name).T) for name in names))
         if self.carries_mean:
             heated.density[:] = state.view("mean_density").T
+        elif state.model.terms.plain:  # the wedge has the speed of the moment
+            heated.density[:] /= self.scaled.moment.speed
         heated.mobility[:] /= self.scaled.groups.lambda_bar
         fine.cavity.limit(fine, heated)  # first: the lag was noted with these exponents
         self.lag.complete(heated)
