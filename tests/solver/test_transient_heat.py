@@ -19,6 +19,7 @@ from tehl.solver.monitor import SILENT
 from tehl.solver.physics.thermal import Coupling
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import COLUMNS
+from tehl.solver.transient.step import StepError
 from tests.reference import DOMAIN, heated_contact
 
 OPTIONS = Options(points=65, domain=DOMAIN)
@@ -238,3 +239,30 @@ def test_a_longer_stride_allows_slower_surfaces():
         hot(1.0, thermal={"sources": "full"})
     with pytest.raises(InputError, match="stride"):
         solve_transient(hot(1e5), OPTIONS)
+
+
+@pytest.mark.parametrize("first", [0, 2], ids=["fastest", "slowest"])
+def test_a_thinning_film_that_diverges_leaves_no_stress_to_the_next_try(first):
+    """Stresses stayed NaN, and no relaxation after the first one could converge."""
+    entrance = {"entrance": 0.6}
+    case = hot(1.0, wavy=True, shear={"law": "eyring", "stress": 7e6}, transient=entrance)
+    case = case.model_copy(update={"thermal": None})
+    run = Run(case, OPTIONS, case.transient, SILENT)
+    stepper, calls = run.stepper, []
+    stepper.choose(first)
+    solve_step = stepper._solve
+
+    def diverge_once(name: str) -> object:
+        calls.append(name)
+        if len(calls) > 1:
+            return solve_step(name)
+        run.level.set_state(np.full_like(run.level.film.p, np.nan), np.nan)
+        stepper.solver.coupling.state.fields.tau_x[:] = np.nan
+        raise StepError("diverged", np.nan)
+
+    stepper._solve = diverge_once
+    assert run.advance(SILENT).converged
+    assert (calls[1] == calls[0]) is (first == 2)
+    undisturbed = solve_transient(case, OPTIONS).history.film_central
+    found = run.record.history(run.scaled.scales).film_central
+    np.testing.assert_allclose(found, undisturbed, rtol=2e-3)

@@ -26,7 +26,13 @@ from tehl.operators.stream_source import SLOWEST_ROW
 from tehl.operators.surfaces import Side, Solids
 from tehl.operators.trail import Trail, TurningTrail, VaryingTrail
 from tehl.operators.transfer import midpoints
-from tehl.operators.transient_film import MakeTrail, Path, TransientFilm, without_history
+from tehl.operators.transient_film import (
+    KeptStresses,
+    MakeTrail,
+    Path,
+    TransientFilm,
+    without_history,
+)
 
 MIXED = 20.0
 """Peclet number of the film times H^2 above which the conductivity is increased: far out in the
@@ -76,8 +82,13 @@ class FilmState:
         self.solids = Solids(grid, film.scaled, film.sides, film.flux_unit, finest=finest)
         modes = len(self.surfaces[0].decay)
         self.work = scratch(film.heat.layers, padded_rows(grid), modes)
-        self.transient: TransientFilm | None = None
+        self.last: TransientFilm | KeptStresses | None = None  # time step
         self.thorough, self.is_first_grid, self.sweeps = thorough, not finest, 0
+
+    @property
+    def transient(self) -> TransientFilm | None:
+        """History of a transient film with heat."""
+        return self.last if isinstance(self.last, TransientFilm) else None
 
     def view(self, name: str) -> Array:
         """Return a field of the film without the rows that fill up the last block, (nx, ny)."""
@@ -276,6 +287,9 @@ class FilmState:
         varying : (int, int) or None
             Where the surfaces change their speeds, the ``length`` of `VaryingTrail`.
         """
+        if not self.model.terms.heat:
+            self.last = KeptStresses(self.fields)
+            return
         nx, ny = self.fields.p.shape
         shape = (nx, self.film.heat.layers, ny)
         self.fields = self.fields._replace(past=np.zeros(shape), pressing=np.zeros((nx, ny)))
@@ -298,14 +312,14 @@ class FilmState:
                 lag = self.grid.dx * scales.speed / (side.speed * time_step)
                 make = partial(Trail, spacing=self.grid.dx, lag=lag)
                 paths.append((side.bulk, surface.factor, make))
-        self.transient = TransientFilm(self.fields, self.surfaces, time_step, paths)
+        self.last = transient = TransientFilm(self.fields, self.surfaces, time_step, paths)
         if self.solids.rubbing is not None:
-            self.transient.begin_rubbing(self.solids.rubbing)
+            transient.begin_rubbing(self.solids.rubbing)
         self.surfaces = Surfaces(
             *(
                 without_history(surface)._replace(factor=factor, near=trail.near)
                 for surface, (_, factor, _), trail in zip(
-                    self.surfaces, paths, self.transient.trails, strict=True
+                    self.surfaces, paths, transient.trails, strict=True
                 )
             )
         )

@@ -152,3 +152,28 @@ def without_history(surface: Surface) -> Surface:
     """Return a surface without a line source to march: ``bulk`` is its whole temperature."""
     nothing = np.zeros_like(surface.decay)
     return surface._replace(next_=0.0, decay=nothing, older=nothing, newer=nothing)
+
+
+class KeptStresses:
+    """Stresses of the last step of a film that thins without heat: a failed one may leave NaN."""
+
+    def __init__(self, fields: Fields) -> None:
+        self.fields = fields
+        self.advance()
+
+    def advance(self) -> None:
+        """Accept the present as the last step."""
+        self.stresses = self.fields.tau_x.copy(), self.fields.tau_y.copy()
+
+    def go_back(self) -> None:
+        """Restore those of the last step."""
+        self.fields.tau_x[:], self.fields.tau_y[:] = self.stresses
+
+    def pack(self) -> dict[str, Array]:
+        """Return no arrays: a checkpoint has the fields of the film."""
+        return {}
+
+    def unpack(self, known: dict[str, Array]) -> None:
+        """Accept the fields that were restored."""
+        del known
+        self.advance()

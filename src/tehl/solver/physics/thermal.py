@@ -280,7 +280,7 @@ class Coupling:
         known = {f"factor_{name}": getattr(factors, name) for name in factors._fields}
         known |= {f"film_{name}": getattr(state.fields, name) for name in CARRIED}
         known["film_back"] = state.work.back  # extent of the next march against the flow
-        return known | (state.transient.pack() if state.transient is not None else {})
+        return known | (state.last.pack() if state.last is not None else {})
 
     def unpack(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
         """Restore the state that `pack` returned.
@@ -297,8 +297,8 @@ class Coupling:
         for name in CARRIED:
             getattr(self.state.fields, name)[:] = fields[f"film_{name}"]
         self.state.work.back[:] = fields["film_back"]
-        if self.state.transient is not None:
-            self.state.transient.unpack(fields)
+        if self.state.last is not None:
+            self.state.last.unpack(fields)
         names = properties.Factors._fields
         self._set_factors(levels, properties.Factors(*(fields[f"factor_{name}"] for name in names)))
         self.factors = levels[-1].factors
@@ -323,7 +323,7 @@ class Coupling:
             self.carries_mean = self.thorough = self.state.thorough = True
             self._couple(self.state, levels)
         self.factors = levels[-1].factors
-        if self.state is not None and self.state.model.terms.heat:
+        if self.state is not None:
             self.state.begin_transient(time_step, varying)
 
     def begin_step(self, moment: Moment, ways: Sequence[Way]) -> None:
@@ -362,14 +362,14 @@ class Coupling:
     def advance(self, levels: Sequence[Level]) -> None:
         """Accept temperatures, stresses and factors as those of the last time step."""
         self.factors = levels[-1].factors
-        if self.state is not None and self.state.transient is not None:
-            self.state.transient.advance()
+        if self.state is not None and self.state.last is not None:
+            self.state.last.advance()
 
     def revert(self, levels: Sequence[Level]) -> None:
         """Restore those of the last time step."""
         self.lag.begin()
-        if self.state is not None and self.state.transient is not None:
-            self.state.transient.go_back()
+        if self.state is not None and self.state.last is not None:
+            self.state.last.go_back()
         if self.factors is not None:
             self._set_factors(levels, self.factors)
 
