@@ -227,6 +227,7 @@ IMPOSSIBLE = [
     ("transient", {}, "nothing changes with time"),
     ("transient", {"load": [[1e-3, 1.0], [1e-3, 2.0]]}, "times that increase"),
     ("transient", {"load": [[0.0, 100.0]]}, "below 10 times"),
+    ("transient", {"load": "120 N/mm"}, "is not a formula: .* those with a unit are for tables"),
     ("transient", {"load": [[0.0, "2 m/s"]]}, 'as "80 N", or a force per length such as'),
     ("transient", {"load": [[0.0, "20 N/mm"]]}, 'transient.load: a value has .* as "80 N"'),
 ]

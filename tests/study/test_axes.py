@@ -195,3 +195,9 @@ def test_a_list_of_cases_may_be_an_excel_sheet(tmp_path):
         ["1.5 N", None],
         ["150 N", "glass"],
     ]
+
+
+def test_one_text_is_no_list_of_values():
+    """Its letters were taken as values."""
+    with pytest.raises(InputError, match=r'axis contact.load = "100 N": must be a list'):
+        cases_of(problem(), {"contact.load": "100 N"})

@@ -134,7 +134,12 @@ def _value(value: object, kinds: tuple[Quantity, ...], plain: Quantity) -> float
 
 def _checked_formula(text: str) -> str:
     """Return a formula that can be evaluated at time zero."""
-    formula = read_formula(text, NUMBERS_IN_TIME)
+    try:
+        formula = read_formula(text, NUMBERS_IN_TIME)
+    except ValueError as error:
+        raise ValueError(
+            f"{error}; its numbers are over those of [contact], those with a unit are for tables"
+        ) from None
     with np.errstate(all="ignore"):
         found = float(formula(0.0))
     if not np.isfinite(found):

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -218,7 +218,7 @@ def cases_of(
     base = problem.model_dump(mode="json", exclude_unset=True)
     base["numerics"] = (options or Options()).model_dump(mode="json", exclude_unset=True)
     listed: list[Any] = (
-        [{"path": path, "values": list(values)} for path, values in axes.items()]
+        [{"path": path, "values": _values(path, values)} for path, values in axes.items()]
         if isinstance(axes, Mapping)
         else list(axes)
     )
@@ -230,6 +230,13 @@ def cases_of(
         raise InputError(_first_mistake(error, tables)) from None
     except ValueError as error:
         raise InputError(str(error)) from None
+
+
+def _values(path: str, values: Iterable[Any]) -> list[Any]:
+    """Return the values of an axis; one in a text alone is a mistake, not a list of letters."""
+    if isinstance(values, str):
+        raise InputError(f'axis {path} = "{values}": must be a list, such as ["{values}"]')
+    return list(values)
 
 
 def study(
