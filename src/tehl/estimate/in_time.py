@@ -1,6 +1,9 @@
 """What a transient run asks of its grid: to follow what changes, and its film at each moment."""
 
 from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
 
 from tehl.contact.moment import SAMPLES, Moment, courses_of, frozen, moments_of
 from tehl.contact.options import Domain
@@ -11,9 +14,8 @@ from tehl.estimate.summits import shared_load
 PART_IN_STEP = 0.25
 """Part of the error to reach by which a load, a speed or a radius may be off a straight line within
 a time step."""
-EVERY, FAST = SAMPLES // 8, 0.5
-"""Of the sampled moments those for whose film nodes are planned; and the least speed of such a
-moment over the largest: that of slower motion depends on what was before."""
+EVERY = SAMPLES // 8
+"""Of the sampled moments those for whose film nodes are planned, and the slowest one."""
 
 Posed = tuple[ScaledProblem, Domain]
 """A steady contact, and the domain of its run in its own half-widths."""
@@ -42,7 +44,8 @@ def nodes_of_courses(scaled: ScaledProblem, domain: Domain, error: float) -> flo
 def films_of_run(scaled: ScaledProblem, domain: Domain) -> list[Posed]:
     """Return the steady contacts whose films the grid of a run resolves, that of its start first.
 
-    A smaller contact has fewer nodes, and the film of a slower one is thinner.
+    A smaller contact has fewer nodes, and the film of a slower one is thinner: that which came in
+    at the largest speed within a half-width of way, so that a motion that turns does not stop.
 
     Parameters
     ----------
@@ -51,12 +54,25 @@ def films_of_run(scaled: ScaledProblem, domain: Domain) -> list[Posed]:
     """
     if not courses_of(scaled.problem):
         return [(scaled, domain)]
-    first, *later = moments_of(scaled.problem, duration_of(scaled))[::EVERY]
-    fast = FAST * max(one.speed for one in (first, *later))
-    chosen = [first, *(one for one in later if one.speed > fast)]
+    moments = moments_of(scaled.problem, duration_of(scaled))
+    entered = _entered(scaled, moments)
+    slowest = min(range(len(moments)), key=lambda n: abs(entered[n].speed))
+    chosen = [moments[0], *entered[EVERY::EVERY], entered[slowest]]
     if not all(one.is_possible and one.speed > 0.0 for one in chosen):  # schedules refuse it
         return [(scaled, domain)]
     return [one for one in films_of(scaled, domain, chosen) if one is not None]
+
+
+def _entered(scaled: ScaledProblem, moments: Sequence[Moment]) -> list[Moment]:
+    """Return sampled moments with the largest speed at which oil came in within a half-width."""
+    speeds = np.abs([one.speed for one in moments])
+    pace = duration_of(scaled) / (len(moments) - 1) * scaled.scales.speed
+    way = np.cumsum(speeds) * pace / scaled.scales.half_width_x
+    since = np.searchsorted(way, way - 1.0)
+    return [
+        replace(one, speed=float(speeds[first : n + 1].max()))
+        for n, (one, first) in enumerate(zip(moments, since.tolist(), strict=True))
+    ]
 
 
 def films_of(
@@ -86,10 +102,28 @@ def first_gap(scaled: ScaledProblem) -> float:
         Its moment is that of the start. A cam whose contact is stated at the nose has ten times its
         film on the flank.
     """
-    own = scaled
-    if courses_of(scaled.problem) and scaled.moment.is_possible and scaled.moment.speed > 0.0:
-        own = ScaledProblem.of(frozen(scaled.problem, scaled.moment))
+    own = _own(scaled)
     return shared_load(own).gap * own.scales.film_thickness / scaled.scales.film_thickness
+
+
+def at_start(scaled: ScaledProblem, domain: Domain) -> Posed:
+    """Return the steady contact of the start of a run, and the domain in its half-widths.
+
+    Parameters
+    ----------
+    scaled, domain : ScaledProblem, Domain
+        A contact, steady or not, and edges in its half-widths.
+    """
+    own = _own(scaled)
+    return (scaled, domain) if own is scaled else _posed(scaled, own, domain)
+
+
+def _own(scaled: ScaledProblem) -> ScaledProblem:
+    """Return the steady contact of the moment of a contact; itself where nothing changes."""
+    moment = scaled.moment
+    if not (courses_of(scaled.problem) and moment.is_possible and moment.speed > 0.0):
+        return scaled
+    return ScaledProblem.of(frozen(scaled.problem, moment))
 
 
 def _posed(stated: ScaledProblem, own: ScaledProblem, domain: Domain) -> Posed:

@@ -107,23 +107,27 @@ def line_bar(groups: Groups, domain: Domain, nodes: float) -> float:
     return LINE_BAR * groups.M * ((domain.x[1] - domain.x[0]) / (nodes - 1)) ** 2
 
 
-def line_error(groups: Groups, domain: Domain, nodes: float) -> float:
+def line_error(groups: Groups, domain: Domain, nodes: float, *, is_bar: bool = True) -> float:
     """Return the error bar by the mesh to expect of central and minimum film, the larger one.
 
     Parameters
     ----------
     groups, domain, nodes
         As of `line_bar`.
+    is_bar : bool
+        Whether the bar is meant, which exceeds the error on few nodes.
     """
     width = (domain.x[1] - domain.x[0]) / (nodes - 1)
     minimum = LINE_MINIMUM_BAR * (min(groups.M, HEAVY_LINE) * width) ** 1.5
     found = max(minimum, line_bar(groups, domain, nodes))
-    if nodes > FEWEST_OF_STEADY or groups.M > COARSE_LINE_M:
+    if not is_bar or nodes > FEWEST_OF_STEADY or groups.M > COARSE_LINE_M:
         return found
     return max(found, min(COARSE_LINE_BAR * (groups.M * width) ** 2, COARSE_LINE_MOST))
 
 
-def line_points(groups: Groups, domain: Domain, error: float, least: float) -> int:
+def line_points(
+    groups: Groups, domain: Domain, error: float, least: float, *, is_bar: bool = True
+) -> int:
     """Return the nodes on which the error bars of the film will be below an error.
 
     Parameters
@@ -134,8 +138,10 @@ def line_points(groups: Groups, domain: Domain, error: float, least: float) -> i
         Relative error of central and minimum film [-].
     least : float
         Nodes that must be exceeded, for waves of the surfaces.
+    is_bar : bool
+        Whether bars or errors are to be below it, as of `line_error`.
     """
-    bars = ((nodes, line_error(groups, domain, nodes)) for nodes in LINE_NODES)
+    bars = ((nodes, line_error(groups, domain, nodes, is_bar=is_bar)) for nodes in LINE_NODES)
     return next((nodes for nodes, bar in bars if nodes > least and bar <= error), LINE_NODES[-1])
 
 

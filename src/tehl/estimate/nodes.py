@@ -217,10 +217,11 @@ def planned(scaled: ScaledProblem, options: Options, *, of_central: bool = False
     least = nodes_of_courses(scaled, domain, options.target)
     if scaled.problem.contact.is_line and scaled.problem.transient is None:
         least = FEWEST_OF_STEADY
-    films = films_of_run(scaled, domain)
-    return options.on_points(
-        *max(_points_of(one, own, options, least, of_central=of_central) for one, own in films)
-    )
+    points = [
+        _points_of(one, own, options, least, of_central=of_central, is_start=number == 0)
+        for number, (one, own) in enumerate(films_of_run(scaled, domain))
+    ]
+    return options.on_points(*max(points))
 
 
 def least_in_time(scaled: ScaledProblem, options: Options) -> float:
@@ -235,9 +236,12 @@ def least_in_time(scaled: ScaledProblem, options: Options) -> float:
     """
     options, domain = settled(scaled.problem, options), domain_of(scaled, options)
     steps = nodes_of_courses(scaled, domain, options.target)
-    films = films_of_run(scaled, domain)
-    start, *later = (_points_of(one, own, options, 0.0)[0] for one, own in films)
-    return max([steps, *(nodes for nodes in later if nodes > start)])
+    start, *later = (
+        _points_of(one, own, options, 0.0, is_start=number == 0)[0]
+        for number, (one, own) in enumerate(films_of_run(scaled, domain))
+    )
+    least = 0.0 if scaled.problem.contact.is_line else start
+    return max([steps, *(nodes for nodes in later if nodes > least)])
 
 
 def _points_of(
@@ -247,6 +251,7 @@ def _points_of(
     least: float,
     *,
     of_central: bool = False,
+    is_start: bool = True,  # later moments of a run have no bars: errors of lines count
 ) -> tuple[int, int]:
     """Return the nodes (nx, ny) of a steady contact, more than ``least`` along x."""
     kind = scaled.problem.contact
@@ -257,8 +262,10 @@ def _points_of(
 
     def enough(least: float) -> tuple[int, int]:
         if options.order > 2 and not kind.is_line:
-            sides = math.inf if of_central else 1.0
-            return _third_order_points(scaled, domain, options.target, least, sides)
+            allowed = math.inf if of_central else 1.0
+            return _third_order_points(scaled, domain, options.target, least, allowed)
+        if kind.is_line:
+            return line_points(scaled.entering, domain, options.target, least, is_bar=is_start), 1
         nodes = expected_points(
             scaled.entering,
             domain,

@@ -9,6 +9,7 @@ from tehl.estimate.domain import domain_error, far_field_error
 from tehl.estimate.entering import entry_error
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.grid import distances
+from tehl.estimate.in_time import at_start
 from tehl.estimate.line import crowded, line_bar
 from tehl.estimate.nodes import LIMITED_RATIO, SCARCE, expected_bar, side_bar
 from tehl.estimate.scaling import ScaledProblem
@@ -162,7 +163,8 @@ def _least_of_minimum(level: Level, hierarchy: Hierarchy, found: ErrorEstimate) 
     scaled, grid = hierarchy.scaled, level.grid
     if scaled.problem.contact.is_line:
         is_held = scaled.problem.asperities is not None
-        expected = line_bar(scaled.entering, grid.domain, grid.nx)
+        own, domain = at_start(scaled, grid.domain)
+        expected = line_bar(own.entering, domain, grid.nx)
         return 0.0 if is_held else MINIMUM_OF_LINE * expected
     at_side, expected, least = is_thinnest_at_side(level), _expected_bar(hierarchy, level), 0.0
     if expected and (at_side or scaled.problem.supply is not None):
