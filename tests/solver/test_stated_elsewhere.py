@@ -72,3 +72,19 @@ def test_a_run_has_the_film_of_its_own_moment(contact, points, thins, heats, cha
     if steady.rolling is not None:
         moment = steady.rolling.moment
         assert history.rolling_moment[[0, -1]] == pytest.approx(moment, rel=error)
+
+
+@pytest.mark.parametrize(
+    "contact",
+    [CIRCLE | {"sliding_angle": 1.2}, CIRCLE | {"spin_1": 800.0, "spin_2": -300.0}],
+    ids=["across", "spin"],
+)
+def test_power_and_lambda_over_time_begin_with_those_of_the_steady_film(contact):
+    problem = case(contact, thins=True, heats=False, load=1.0)
+    rough = problem.surface_1.model_copy(update={"rms_roughness": 1e-7})
+    run = solve_transient(problem.model_copy(update={"surface_1": rough}), Options(points=65))
+    power, found = run.start.traction.sliding_power, run.start.roughness
+    assert power > 0.3
+    assert run.sliding_power[0] == pytest.approx(power, rel=1e-6)
+    assert run.sliding_power[-1] == pytest.approx(power, rel=1e-4)
+    assert run.lambda_central[0] == pytest.approx(found.lambda_central, rel=1e-6)
