@@ -14,8 +14,9 @@ from tehl.estimate.summits import shared_load
 PART_IN_STEP = 0.25
 """Part of the error to reach by which a load, a speed or a radius may be off a straight line within
 a time step."""
-EVERY = SAMPLES // 8
-"""Of the sampled moments those for whose film nodes are planned, and the slowest one."""
+EVERY, FAST = SAMPLES // 8, 0.5
+"""Of the sampled moments those for whose film nodes are planned; and of points, whose bars are all
+that is known, the least speed of such a moment over the largest."""
 
 Posed = tuple[ScaledProblem, Domain]
 """A steady contact, and the domain of its run in its own half-widths."""
@@ -45,7 +46,8 @@ def films_of_run(scaled: ScaledProblem, domain: Domain) -> list[Posed]:
     """Return the steady contacts whose films the grid of a run resolves, that of its start first.
 
     A smaller contact has fewer nodes, and the film of a slower one is thinner: that which came in
-    at the largest speed within a half-width of way, so that a motion that turns does not stop.
+    at the largest speed within a half-width of way, so that a motion that turns does not stop. A
+    line has the slowest of these too.
 
     Parameters
     ----------
@@ -55,9 +57,13 @@ def films_of_run(scaled: ScaledProblem, domain: Domain) -> list[Posed]:
     if not courses_of(scaled.problem):
         return [(scaled, domain)]
     moments = moments_of(scaled.problem, duration_of(scaled))
-    entered = _entered(scaled, moments)
-    slowest = min(range(len(moments)), key=lambda n: abs(entered[n].speed))
-    chosen = [moments[0], *entered[EVERY::EVERY], entered[slowest]]
+    if scaled.problem.contact.is_line:
+        entered = _entered(scaled, moments)
+        slowest = min(range(len(moments)), key=lambda n: entered[n].speed)
+        chosen = [moments[0], *entered[EVERY::EVERY], entered[slowest]]
+    else:
+        fast = FAST * max(one.speed for one in moments[::EVERY])
+        chosen = [moments[0], *(one for one in moments[EVERY::EVERY] if one.speed > fast)]
     if not all(one.is_possible and one.speed > 0.0 for one in chosen):  # schedules refuse it
         return [(scaled, domain)]
     return [one for one in films_of(scaled, domain, chosen) if one is not None]
