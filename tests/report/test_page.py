@@ -373,6 +373,23 @@ def test_formulas_are_compared_only_with_a_film_of_the_stated_contact():
 
 
 @pytest.mark.usefixtures("no_pictures")
+def test_the_verdict_of_a_run_has_its_least_lambda():
+    run = passing(CASE | {"transient": {"duration": 1e-4, "load": [[0.0, 1.0], [1e-4, 0.5]]}})
+    rough = run.start.problem.surface_1.model_copy(update={"rms_roughness": 1e-7})
+    problem = run.start.problem.model_copy(update={"surface_1": rough})
+    central = run.history.film_central.copy()
+    central[-1] = 2e-8
+    run = replace(
+        run,
+        start=run.start.but(problem=problem),
+        history=replace(run.history, film_central=central),
+    )
+    words = " ".join(Page(report_text(run)).words)
+    assert "Boundary lubrication at" in words
+    assert "λ = 0.2 at the least" in words
+
+
+@pytest.mark.usefixtures("no_pictures")
 def test_the_load_of_a_line_is_that_of_a_length():
     line = {"type": "line", "radius": "8 mm", "load_per_length": "300 N/mm"}
     line |= {"entrainment_speed": "3 m/s"}
