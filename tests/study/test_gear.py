@@ -28,6 +28,15 @@ FZG = {
     "shift": (0.182, 0.172),
     "centres": 91.5e-3,
 }
+CAM = {
+    "base_radius": 18e-3,
+    "lift": 6e-3,
+    "half_angle": math.radians(75.0),
+    "width": 12e-3,
+    "speed": 100.0,
+    "spring": (250.0, 30e3),
+    "mass": 0.1,
+}
 
 
 def test_the_pitch_point_is_that_of_another_program():
@@ -66,15 +75,7 @@ def test_gears_that_cannot_mesh_are_rejected():
 
 
 def test_a_cam_turns_its_entrainment_twice():
-    cam = FlatCam(
-        base_radius=18e-3,
-        lift=6e-3,
-        half_angle=math.radians(75.0),
-        width=12e-3,
-        speed=100.0,
-        spring=(250.0, 30e3),
-        mass=0.1,
-    )
+    cam = FlatCam(**CAM)
     tables = cam.tables(math.radians(85.0))
     case = ContactProblem(surface_1=STEEL, surface_2=STEEL, lubricant=OIL, **tables)
     times = np.linspace(0.0, case.transient.duration, 301)
@@ -96,15 +97,8 @@ def test_a_cam_turns_its_entrainment_twice():
 
 def test_a_whole_turn_of_a_cam_is_planned_on_the_nodes_of_its_thick_film():
     """On the 513 of steady lines it took 38,000 steps, and was refused."""
-    cam = FlatCam(
-        base_radius=18e-3,
-        lift=5e-3,
-        half_angle=math.radians(75.0),
-        width=14e-3,
-        speed=1000.0 * 2.0 * math.pi / 60.0,
-        spring=(150.0, 30e3),
-        mass=0.12,
-    )
+    spring = {"spring": (150.0, 30e3), "mass": 0.12, "speed": 1000.0 * 2.0 * math.pi / 60.0}
+    cam = FlatCam(**CAM | spring | {"lift": 5e-3, "width": 14e-3})
     steel, tables = {"surface_1": STEEL, "surface_2": STEEL}, cam.tables(math.pi, 361)
     run = ContactProblem(lubricant=OIL, **steel, **tables)
     still = run.model_copy(update={"transient": None})

@@ -21,6 +21,7 @@ from tehl.result.fields import FilmContact, FilmShear
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_rough import PRESSURE, WAVELENGTH, make_rough
 from tests.fixtures_transient import make_transient
+from tests.reference import moes_contact
 
 
 def stressed(result, **settings):
@@ -72,6 +73,29 @@ def test_the_bar_of_a_narrow_spike_fades_with_the_depth():
     assert PressureBar(0.4, math.inf).at(1e-4) == pytest.approx(0.4)
     assert PressureBar(0.4, 1e-6).at(1e-6) == pytest.approx(0.2)
     assert PressureBar(0.4, 1e-6).at(1e-4) == pytest.approx(0.8e-2 / math.pi, rel=1e-3)
+
+
+def test_the_bar_of_the_shear_stress_of_a_line_holds_its_direct_integral():
+    """Of strips of uniform pressure (Johnson 1985, section 2.5), without shear: it rolls."""
+    contact = {"type": "line", "radius": 0.01, "moes_load": 50.0, "moes_speed": 10.0}
+    given = moes_contact(50.0, 10.0).model_dump(exclude_none=True)
+    line = tehl.ContactProblem.model_validate(given | {"contact": contact, "stress": {}})
+    result = tehl.solve(line)
+    half, unit = 0.5 * (result.x[1] - result.x[0]), result.scales.half_width_x
+    x, z = (
+        unit * np.linspace(-0.3, 0.3, 61)[:, None, None],
+        unit * np.linspace(0.6, 1.0, 81)[:, None],
+    )
+    ends = x - result.x + half, x - result.x - half
+    turned, slip = (
+        (one(ends[0]) - one(ends[1])) @ result.pressure[0] / math.pi
+        for one in (lambda s: s * z / (s**2 + z**2), lambda s: z**2 / (s**2 + z**2))
+    )
+    largest = float(np.hypot(turned, slip).max())  # (sigma_x - sigma_z)/2 and tau_zx
+    found = result.stress_numbers.worse
+    assert largest == pytest.approx(0.3003 * result.scales.hertz_pressure, rel=0.03)
+    assert found.shear == pytest.approx(largest, rel=found.shear_error)
+    assert found.shear_error < 5e-3
 
 
 @pytest.mark.parametrize("criterion", ["orthogonal-shear", "dang-van"])

@@ -21,6 +21,11 @@ SPIKE_CELLS = 2.0
 """Half-width of a spike that the mesh does not resolve, in mesh widths along x."""
 
 
+DEPTH_BAR = 1e-3
+"""Bar of a maximum between the depths: the shear stress of six lines (M = 10 to 100, on 513 to 8193
+nodes) is within 0.94e-3 of direct integrals over their pressure."""
+
+
 class PressureBar(NamedTuple):
     """Error bar of the largest pressure of a film."""
 
@@ -81,9 +86,9 @@ class BodyNumbers:
     shear_y: float
     """Largest shear stress [Pa], its depth and place [m]."""
     shear_error: float
-    """Its relative error bar: the change by loads on every second node, and the bar of the largest
-    pressure of the film, of a spike that the mesh does not resolve by what reaches that depth [-].
-    """
+    """Its relative error bar: `DEPTH_BAR`, the change by loads on every second node, and the bar of
+    the largest pressure of the film; of a spike that the mesh does not resolve what reaches that
+    depth [-]."""
     shear_ratio: float
     """Largest shear stress over that of the dry smooth contact [-]."""
     von_mises: float
@@ -212,7 +217,7 @@ def _numbers(
         shear_depth=shear.depth,
         shear_x=float(found.shear_x[row, shear.place]),
         shear_y=float(found.shear_y[row, shear.place]),
-        shear_error=abs(coarse.value / shear.value - 1.0) + bar.at(shear.depth),
+        shear_error=DEPTH_BAR + abs(coarse.value / shear.value - 1.0) + bar.at(shear.depth),
         shear_ratio=shear.value / dry.value,
         von_mises=mises.value,
         von_mises_depth=mises.depth,

@@ -52,8 +52,8 @@ WEIGHT_OF_POINTS = 12.0
 moves the film more than a point does, and grows where the conductance does not outweigh it: at
 three times this value, slowly enough to seem converged (M = 20 to 100, L = 1 to 5)."""
 DAMPED = 0.5
-"""Part of the way that mobility and density go per cycle in slower relaxations. A random surface in
-a film that thins (M = 153, 129 nodes) takes 20 cycles a step with it, and stops without."""
+"""Part of the way that mobility and density go per cycle in slower relaxations. A measured map in
+a film that thins (M = 79, L = 12, 129 nodes) takes 20 cycles a step with it, and stops without."""
 SHAPE = Cycle(kind="V", pre_sweeps=2, post_sweeps=1, extra_sweeps=1)
 """The extra sweep on coarse grids is for long waves: ripples of steps converged to 1e-3 are within
 0.2 % of those converged to 1e-5 with it, within 0.9 % without."""
