@@ -5,11 +5,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from pydantic import Field
 
 from tehl.api.solvers import solve
+from tehl.base import units
 from tehl.contact.options import Options
 from tehl.estimate import film_formulas
 from tehl.estimate.scaling import ScaledProblem
+from tehl.lubricant import law, viscosity
 from tehl.solver.cycle import level
 from tehl.solver.physics import solid_shares
 from tests.reference import moes_contact
@@ -51,9 +54,35 @@ def test_the_formula_of_the_page_has_the_value_that_it_states():
     assert film.central == pytest.approx(3.918e-4, rel=1e-3)
 
 
+def test_the_law_of_the_page_has_the_value_that_it_states():
+    names = {**vars(law), **vars(units), **vars(viscosity), "Field": Field}
+    lines = added("adding-a-law.md", "src/tehl/lubricant/viscosity.py")
+    exec(lines, names)
+    mcewen = names["McEwen"](eta_0=0.04, alpha=2.2e-8, q=10.0, gamma=0.042)
+    # (1 + 22 * 0.5 / 10)^10 = 2.1^10 at 0.5 GPa
+    assert mcewen.viscosity(5e8, 313.15) == pytest.approx(0.04 * 2.1**10, rel=1e-12)
+
+
+def test_the_pages_name_files_and_functions_that_are_there():
+    text = (PAGES / "architecture.md").read_text(encoding="utf-8")
+    table = text[text.index("## Where it is") : text.index("## Results on disk")]
+    named = re.findall(r"`([\w/]+\.\w+)`((?:: `\w+`(?:, `\w+`)*)?)", table)
+    assert len(named) > 15
+    for file, names in named:
+        found = sorted((PAGES.parents[1] / "src/tehl").rglob(file))
+        there = "".join(one.read_text(encoding="utf-8") for one in found)
+        words = {*re.findall(r"\w+", there)}
+        assert found, file
+        assert {*re.findall(r"`(\w+)`", names)} <= words, file
+
+
 @pytest.mark.parametrize(
     ("page", "file"),
     [
+        ("adding-a-quantity.md", "src/tehl/result/quantities.py"),
+        ("adding-a-quantity.md", "src/tehl/post/film.py"),
+        ("adding-a-quantity.md", "src/tehl/post/following.py"),
+        ("adding-a-quantity.md", "src/tehl/solver/judging/measures.py"),
         ("adding-an-entrainment.md", "src/tehl/operators/turning.py"),
         ("adding-an-entrainment.md", "src/tehl/solver/cycle/level.py"),
         ("adding-a-share.md", "src/tehl/contact/shape.py"),

@@ -1,4 +1,4 @@
-"""Duration of a transient run: where roughness starts and when it has passed the contact."""
+"""Duration and time step of a transient run: when roughness has passed, what a step resolves."""
 
 import math
 from collections.abc import Iterator

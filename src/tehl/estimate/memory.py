@@ -1,4 +1,4 @@
-"""Memory that a solve needs, and memory that is available."""
+"""Memory that a solve needs, and memory that is available, before and during the solve."""
 
 import math
 import os

@@ -1,4 +1,4 @@
-"""Film equation H = H00 + gap + K P (docs/theory/model.md): undeformed gap and rigid motions."""
+"""Undeformed gap and rigid motions; `Level.update` adds the deflection, H = H00 + gap + K P."""
 
 import numpy as np
 
