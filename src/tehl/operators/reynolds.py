@@ -42,9 +42,9 @@ def steady_stencil(
     groups : Groups
         The ellipticity scales the differences along y.
     wedge_order : {1, 2, 3}
-        Order of the upstream difference: (1, -1), (3/2, -2, 1/2) or (2, 3, -6, 1)/6 over dx, which is
-        the second one with a third difference, ``third``, geometric means of the conductance, and
-        logarithmic ones along y if it is oblique.
+        Order of the upstream difference: (1, -1), (3/2, -2, 1/2) or (2, 3, -6, 1)/6 over dx, the
+        last as the second one and a third difference, ``third``, with geometric means of the
+        conductance, logarithmic ones along y if it is oblique.
         Those along y of rollers are always of the mobilities logarithmic and of the cubes of the
         films geometric: at their ends both change by orders of magnitude from line to line.
     conserves : bool
