@@ -183,19 +183,6 @@ class TransientResult(Saved, TransientSolution):
         """
         return transient_numbers.longer_duration(self)
 
-    @property
-    def patch_cells(self) -> float:
-        """Largest mean diameter, or width, of patches of contact in the frames [mesh widths].
-
-        Zero where surfaces do not touch through a boundary film in any of them.
-        """
-        return transient_numbers.patch_cells(self)
-
-    @property
-    def why_share_unknown(self) -> str:
-        """Why the share where surfaces touch means nothing, in words; empty if it is known."""
-        return transient_numbers.why_share_unknown(self)
-
 
 def _values(solution: Solution | TransientSolution) -> dict[str, Any]:
     return {one.name: getattr(solution, one.name) for one in fields(solution)}

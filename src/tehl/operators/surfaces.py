@@ -75,12 +75,8 @@ class Side:
     @property
     def marches(self) -> bool:
         """Whether a line source is carried along by the energy equation."""
-        return self.conductivity > 0.0 and self.speed > 0.0 and self.least_line <= self.peclet
-
-    @property
-    def least_line(self) -> float:
-        """Return the solid Peclet number from which the line is marched."""
-        return LEAST_LINE if self.form == "full" else 0.0
+        least = LEAST_LINE if self.form == "full" else 0.0
+        return self.conductivity > 0.0 and self.speed > 0.0 and least <= self.peclet
 
     @property
     def streams(self) -> bool:

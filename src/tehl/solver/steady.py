@@ -13,7 +13,6 @@ from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import domain_of
 from tehl.estimate.film_formulas import check_film
-from tehl.estimate.grid import Grid
 from tehl.estimate.memory import check_memory
 from tehl.estimate.nodes import finest_grid, planned
 from tehl.estimate.scaling import ScaledProblem
@@ -205,7 +204,7 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     if rough:
         check_ends(scaled, finest_grid(scaled, plan))
     check_memory(plan, problem)
-    heights = cache(partial(heights_of, scaled) if rough else _no_heights)
+    heights = cache(partial(heights_of, scaled) if rough else lambda _: None)
     # at other accuracies full multigrid is done before a better start saves a cycle
     start = guess if options.accuracy == "tight" else None
 
@@ -224,11 +223,6 @@ def try_strategies(  # noqa: PLR0913 (one solve)
     # last, as it overwrites the coarser levels
     monitor.message("stiffness and damping")
     return best, with_dynamics(result, best.run).but(cost=clock.cost())
-
-
-def _no_heights(grid: Grid) -> None:
-    """Return the heights of smooth surfaces on a grid."""
-    del grid
 
 
 def flooded_film(

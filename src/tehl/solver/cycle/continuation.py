@@ -7,7 +7,7 @@ heights in parts, and finer grids start from the rough film of the next coarser 
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -123,11 +123,6 @@ class Roughness:
         """Change of a pressure per cycle beyond which no iteration recovers, in Hertz pressures."""
         return LARGEST_ROUGH_STEP if self.is_rough else math.inf
 
-    @property
-    def serves_others(self) -> bool:
-        """Whether another strategy may go on from its grids: it raises no heights on another."""
-        return not self.is_rough
-
     def spare(self, allowed: float) -> float:
         """Return the iteration error that may stay: none between rough surfaces, else ``allowed``.
 
@@ -145,10 +140,6 @@ class Roughness:
             the other between rough ones.
         """
         return max(minimum, 0.0) / smooth if self.is_rough else 1.0
-
-    def is_on(self, levels: Sequence[Level]) -> bool:
-        """Return whether the last of ``levels`` has the heights."""
-        return len(levels) > self.first
 
     def restart(self, number: int, expected_film: float) -> bool:
         """Restart a level from the smooth film; the heights are raised there again.

@@ -163,7 +163,7 @@ class FilmSolver(GridIteration):
 
     def _keep(self, levels: Sequence[Level]) -> None:
         """Note that the last of ``levels`` is solved, for other strategies."""
-        if self.roughness.serves_others:
+        if not self.roughness.is_rough:  # another strategy would raise no heights there
             traces, heat = tuple(replace(one) for one in self.traces), self.coupling.kept(levels)
             found = Solved(levels[-1].grid, traces, levels[-1].state(), heat)
             self.solved = (*self.solved, found)

@@ -86,7 +86,7 @@ class Visit:
     @property
     def is_rough(self) -> bool:
         """Whether the grid has the heights."""
-        return self.roughness.is_on(self.levels)
+        return len(self.levels) > self.roughness.first
 
     @property
     def balanced_below(self) -> float:
