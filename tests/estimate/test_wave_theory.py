@@ -34,7 +34,7 @@ def test_the_bulk_modulus_is_that_of_the_law(result):
 
 def test_a_standing_wave_keeps_what_the_oil_is_compressed():
     (wave,) = WAVE.components
-    theory = FILM.theory(wave, wave.amplitude, drift=-1.0)
+    theory = FILM.theory(wave, wave.amplitude, drift=(-1.0, 0.0))
     c = theory.compressibility
     assert c == pytest.approx(2e-7 * 2.2e11 * 2 * math.pi / 5e-5 / 4 / 1e10)
     assert theory.film_ratio == pytest.approx(c / (1 + c), rel=1e-3)  # Q is large, not infinite
@@ -43,14 +43,14 @@ def test_a_standing_wave_keeps_what_the_oil_is_compressed():
 
 def test_a_wave_that_moves_with_the_mean_speed_is_left_to_the_inlet():
     (wave,) = WAVE.components
-    theory = FILM.theory(wave, wave.amplitude, drift=0.0)
+    theory = FILM.theory(wave, wave.amplitude, drift=(0.0, 0.0))
     assert theory.left_to_inlet
     assert theory.film_ratio == 1.0
-    assert FILM.theory(wave, wave.amplitude, drift=0.0, holds=False).left_to_inlet
+    assert FILM.theory(wave, wave.amplitude, drift=(0.0, 0.0), holds=False).left_to_inlet
 
 
 def test_where_the_theory_does_not_hold_only_the_elastic_pressure_is_known():
     (wave,) = WAVE.components
-    theory = FILM.theory(wave, wave.amplitude, drift=-1.0, holds=False)
+    theory = FILM.theory(wave, wave.amplitude, drift=(-1.0, 0.0), holds=False)
     assert theory.film_ratio is theory.pressure is None
     assert theory.elastic_pressure == pytest.approx(math.pi * 2.2e11 * 1e-8 / (2 * 5e-5))

@@ -11,6 +11,7 @@ from tehl.api.solvers import solve
 from tehl.base.errors import InputError
 from tehl.contact.heat import Thermal
 from tehl.contact.options import Options
+from tehl.contact.shape import Ellipse
 from tehl.estimate.film_formulas import lubrication
 from tehl.io.store import load_summary, save
 from tehl.io.summary import from_block, roughness_block
@@ -188,5 +189,6 @@ def test_ripples_are_the_rms_about_a_parabola(half):
     wave = np.cos(40.0 * np.pi * x) + 0.0 * y[:, None]
     hertz = np.sqrt(np.maximum(0.0, 1.0 - x**2 - y[:, None] ** 2))
     film = 0.2 + 0.1 * x + 0.05 * y[:, None] ** 2 + 0.01 * wave
-    found = ripples(x, y, film, hertz - 0.3 * wave)
+    circle = Ellipse(ellipticity=1.0, radius_ratio=1.0)
+    found = ripples(x, y, film, hertz - 0.3 * wave, circle)
     assert found == pytest.approx((0.01 / math.sqrt(2.0), 0.3 / math.sqrt(2.0)), rel=0.02)

@@ -73,9 +73,9 @@ def test_a_wave_found_in_a_map_moves_with_its_surface(tmp_path, run):
     table = {"type": "map", "file": str(tmp_path / "wave.npy"), "unit": "m", "level": "none",
              "pixel": pixel, "outside": "periodic"}  # fmt: skip
     moving = in_time(5.0, surface_1={"roughness": table})
-    assert drift_of_heights(moving) == 0.0
-    assert drift_of_heights(in_time(1.0, slide=0.5, surface_1={"roughness": table})) > 0.0
+    assert drift_of_heights(moving) == (0.0, 0.0)
+    assert drift_of_heights(in_time(1.0, slide=0.5, surface_1={"roughness": table}))[0] > 0.0
     both = in_time(1.0, slide=0.5, surface_1={"roughness": table}, surface_2={"roughness": table})
     assert drift_of_heights(both) is None
     steady = moving.model_copy(update={"transient": None})
-    assert drift_of_heights(steady) == -units.speed
+    assert drift_of_heights(steady) == (-units.speed, 0.0)

@@ -142,7 +142,10 @@ class Motion:
         return self.speed_1 if surface == 1 else self.speed_2
 
     def velocity_of(self, surface: int) -> tuple[float, float]:
-        """Return the velocity of surface 1 or 2 at the centre, along x and y [m/s]."""
+        """Return the velocity of surface 1 or 2 at the centre, along x and y [m/s].
+
+        Raises InputError for any other number, as `speed_of`.
+        """
         sign = 1.0 if surface == 1 else -1.0
         return self.speed_of(surface), 0.5 * sign * self.entrainment_speed * self.sliding_ratio[1]
 

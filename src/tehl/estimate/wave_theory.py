@@ -6,11 +6,13 @@ isothermal film of constant thickness h and constant properties of Newtonian oil
 
 .. math:: \frac{\hat p}{A} = -\frac{\kappa E'}{4}\,\frac{iQ}{1 - iQ - iCQ}, \quad
           \frac{\hat h}{A} = -1 - \frac{iQ}{1 - iQ - iCQ}, \quad
-          C = \frac{h E' \kappa}{4B}, \quad Q = \frac{48\,\eta\,(u_s - u_m) w_x}{E' h^3 \kappa^3}
+          C = \frac{h E' \kappa}{4B}, \quad
+          Q = \frac{48\,\eta\,(\mathbf{u}_s - \mathbf{u}_m)\cdot\mathbf{w}}
+                   {E' h^3 \kappa^3}
 
-B is the bulk modulus and u_s the speed of the wave, zero for a standing one. The viscosity in a
-contact is so large that Q is practically infinite unless crests lie along the entrainment or move
-with the mean speed: ``C/(1 + C)`` of the wave is left in the film, and the pressure carries
+B is the bulk modulus and u_s the velocity of the wave, zero for a standing one. The viscosity in a
+contact is so large that Q is practically infinite unless crests move with the oil, or along
+themselves beside it: ``C/(1 + C)`` of the wave is left in the film, and the pressure carries
 ``1/(1 + C)`` of what flattens the whole wave.
 
 A wave that passes in pure rolling is flattened by the inlet, less the shorter it is. A fit to
@@ -41,6 +43,7 @@ from tehl.lubricant.density import DensityLaw
 from tehl.roughness import AnyRoughness, Sum, WaveVector
 from tehl.roughness.waves import HarmonicModel
 
+Velocity = tuple[float, float]
 _PRESSURE_STEP = 1e5
 """Difference of pressure over which the bulk modulus is taken [Pa]."""
 
@@ -78,7 +81,7 @@ class FlatFilm:
     """E' [Pa]."""
 
     def theory(
-        self, wave: WaveVector, amplitude: float, drift: float, *, holds: bool = True
+        self, wave: WaveVector, amplitude: float, drift: Velocity, *, holds: bool = True
     ) -> LinearTheory:
         """Return the ripples of a wave by linear theory.
 
@@ -88,15 +91,15 @@ class FlatFilm:
             Its wave numbers.
         amplitude : float
             Of the heights [m].
-        drift : float
-            u_s - u_m: speed of the wave less the mean speed [m/s].
+        drift : (float, float)
+            u_s - u_m: velocity of the wave less the mean one, along x and y [m/s].
         holds : bool
             Whether the film is isothermal and Newtonian; if not, the theory holds only for a wave
             on which the pressure does not act.
         """
         stiffness = 0.25 * wave.number * self.reduced_modulus
         compressed = self.film * stiffness / self.bulk_modulus
-        q = 48.0 * self.viscosity * drift * wave.along
+        q = 48.0 * self.viscosity * wave.rate(drift)
         q /= self.reduced_modulus * (self.film * wave.number) ** 3
         # iQ/(1 - iQ - iCQ), in a form that holds for infinite Q
         flattened = 0j if q == 0 else -1.0 / (1.0 + compressed + 1j / q)
@@ -161,29 +164,37 @@ def expected_waves(
         yield wave, flat.theory(wave, wave.amplitude, drift, holds=holds)
 
 
-def drifting_waves(problem: ContactProblem) -> Iterator[tuple[WaveVector, float]]:
-    """Yield each harmonic of both surfaces, and its speed less the mean speed [m/s].
+def drifting_waves(problem: ContactProblem) -> Iterator[tuple[WaveVector, Velocity]]:
+    """Yield each harmonic of both surfaces, and its velocity less the mean one [m/s].
 
     Without ``transient`` the waves stand still.
     """
-    motion = problem.motion
-    speeds = (0.0, 0.0) if problem.transient is None else (motion.speed_1, motion.speed_2)
-    for surface, speed in zip(problem.surfaces, speeds, strict=True):
+    for surface, drift in zip(problem.surfaces, _drifts(problem), strict=True):
         for wave in waves_of(surface.roughness):
-            yield wave, speed - motion.entrainment_speed
+            yield wave, drift
 
 
-def drift_of_heights(problem: ContactProblem) -> float | None:
-    """Return the speed of waves found in the heights, less the mean speed [m/s].
+def _drifts(problem: ContactProblem) -> tuple[Velocity, Velocity]:
+    """Return the velocities of both surfaces at the centre less the mean one; as they stand."""
+    motion = problem.motion
+    still = -motion.entrainment_speed, 0.0
+    if problem.transient is None:
+        return still, still
+    (u_1, v_1), (u_2, v_2) = (motion.velocity_of(number) for number in (1, 2))
+    return (u_1 - motion.entrainment_speed, v_1), (u_2 - motion.entrainment_speed, v_2)
+
+
+def drift_of_heights(problem: ContactProblem) -> Velocity | None:
+    """Return the velocity of waves found in the heights, less the mean one [m/s].
 
     None where both surfaces may have them and move apart. Without ``transient`` they stand still.
     """
-    motion = problem.motion
+    drifts = _drifts(problem)
     if problem.transient is None:
-        return -motion.entrainment_speed
-    surfaces = ((problem.surface_1, motion.speed_1), (problem.surface_2, motion.speed_2))
-    speeds = {speed for one, speed in surfaces if not one.roughness.is_smooth}
-    return speeds.pop() - motion.entrainment_speed if len(speeds) == 1 else None
+        return drifts[0]
+    rough = [not one.roughness.is_smooth for one in problem.surfaces]
+    found = {drift for drift, counts in zip(drifts, rough, strict=True) if counts}
+    return found.pop() if len(found) == 1 else None
 
 
 def waves_of(roughness: AnyRoughness) -> Iterator[WaveVector]:

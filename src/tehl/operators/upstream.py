@@ -40,6 +40,7 @@ class Lines(NamedTuple):
     """X of the nodes, (nx,), P and H there, (ny, nx), and what each line stands for, (ny,) [-].
 
     ``slower`` (ny,): what spin takes from the speed of each line, over that of the contact.
+    ``whole`` is P of oil and solids together, None if that of the oil is all.
     """
 
     x: Array
@@ -47,6 +48,7 @@ class Lines(NamedTuple):
     film: Array
     widths: Array
     slower: Array | float = 0.0
+    whole: Array | None = None
 
 
 class Places(NamedTuple):
@@ -136,14 +138,16 @@ def rolling(
 
     .. math:: I = \int\!\!\int H \frac{dP}{dX} dX dY = -c \int\!\!\int X P\, dX dY,
 
-    which are equal as the deflection by P makes no moment. Sums by the trapezoidal rule. The tail
+    which are equal as the deflection by P makes no moment. Where asperities carry load too, the
+    second P is that of both, and H the separation of the mean planes: their pressure is a function
+    of it, and makes no moment over its slope. Sums by the trapezoidal rule. The tail
     is the part of the oil upstream of the grid, that of the steady film of this moment. The
     ratio is that on the grid, one if the oil has no pressure.
 
     Parameters
     ----------
     lines : Lines
-        Pressure and film on a grid.
+        Pressures and separation on a grid.
     oil : (ny,) array or None
         rho H of each line where its pressure is largest [-]; None where no oil reaches further
         upstream.
@@ -160,7 +164,8 @@ def rolling(
         upstream = beyond(float(x[0]), film[:, 0], flux, groups, speed=speed, moment=moment)
         tail = float(upstream.rolling @ widths)
     flow = np.sum(0.5 * (film[:, 1:] + film[:, :-1]) * np.diff(pressure), axis=1)
-    centre = -moment.curvature * np.trapezoid(x * pressure, x)
+    whole = pressure if lines.whole is None else lines.whole[:, way]
+    centre = -moment.curvature * np.trapezoid(x * whole, x)
     on_grid = float((flow + film[:, 0] * pressure[:, 0]) @ widths)
     found = float(flow @ widths) + tail
     return sign * found, float(centre @ widths) / on_grid if on_grid else 1.0, sign * tail

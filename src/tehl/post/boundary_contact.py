@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.base.typing import Array, BoolArray, IntArray, SingleArray
+from tehl.base.typing import Array, BoolArray, SingleArray
 from tehl.contact.boundary_contact import TOUCHING_MARGIN, ContactFilm
 from tehl.estimate.domain import domain_of
 from tehl.estimate.film_formulas import expected_central_film
@@ -118,7 +118,7 @@ def touching(result: Solution) -> Touching | None:
         solid_share=float((cells * found.pressure).sum()) / result.load,
         contact_pressure_max=float(found.pressure.max()),
         friction_film=_film_friction(result),
-        patches=_patches(result, meet, cells * both, both),
+        patches=_patches(result, meet, cells, both),
         balance=float(found.balance),
     )
 
@@ -168,7 +168,7 @@ def largest_patches(
     for film, pressure in zip(films, pressures, strict=True):
         meet = film <= (1.0 + TOUCHING_MARGIN) * least
         if meet.any():
-            cells = max(cells, _diameters(meet, pressure, wraps=wraps)[-1])
+            cells = max(cells, _diameters(meet, pressure, pressure, wraps=wraps)[-1])
     return cells
 
 
@@ -177,25 +177,23 @@ def _film_friction(result: Solution) -> float | None:
     return forces.size if forces is not None and forces.credible else None
 
 
-def _patches(result: Solution, meet: BoolArray, loads: Array, both: Array) -> Patches | None:
+def _patches(result: Solution, meet: BoolArray, area: Array, both: Array) -> Patches | None:
     if not meet.any():
         return None
     wraps = result.groups.shape.wraps
-    nodes, cells = _diameters(meet, loads, wraps=wraps)
-    pressed = both[:-1][meet[:-1]] if wraps else both[meet]
-    cell = float(result.x[1] - result.x[0]) * float(cell_widths(result.y).max())
+    areas, cells = _diameters(meet, area * both, area, wraps=wraps)
     return Patches(
-        number=nodes.size,
-        area_mean=float(nodes.mean()) * cell,
-        area_largest=float(nodes.max()) * cell,
-        pressure_mean=float(pressed.mean()),
-        pressure_max=float(pressed.max()),
+        number=areas.size,
+        area_mean=float(areas.mean()),
+        area_largest=float(areas.max()),
+        pressure_mean=float(np.average(both[meet], weights=area[meet])),
+        pressure_max=float(both[meet].max()),
         cells=cells,
     )
 
 
-def _diameters(meet: BoolArray, loads: Array, *, wraps: bool) -> tuple[IntArray, float]:
-    """Return the nodes of each patch, and the mean diameter weighted by load [mesh widths].
+def _diameters(meet: BoolArray, loads: Array, areas: Array, *, wraps: bool) -> tuple[Array, float]:
+    """Return the area of each patch, and the mean diameter weighted by load [mesh widths].
 
     The diameter is that of a circle of its area, or the width of the patch where it is broadest if
     that is less: a long patch is resolved if its width is. In a line contact it is its length.
@@ -205,7 +203,8 @@ def _diameters(meet: BoolArray, loads: Array, *, wraps: bool) -> tuple[IntArray,
     from scipy.ndimage import distance_transform_edt, label, maximum  # noqa: PLC0415
 
     if wraps:
-        meet, loads = meet[:-1], np.concatenate([loads[:1] + loads[-1:], loads[1:-1]])
+        meet = meet[:-1]
+        loads, areas = (np.concatenate([one[:1] + one[-1:], one[1:-1]]) for one in (loads, areas))
     labels, number = label(meet)
     beside = np.pad(meet, ((0, 0), (1, 1)))
     around = len(meet) if wraps else 1
@@ -223,4 +222,5 @@ def _diameters(meet: BoolArray, loads: Array, *, wraps: bool) -> tuple[IntArray,
     widths = 2.0 * np.asarray(maximum(depth, labels, np.arange(1, number + 1)))
     across = np.minimum(2.0 * np.sqrt(nodes / math.pi), widths) if len(meet) > 1 else nodes
     weights = carried if carried.sum() > 0.0 else np.ones(number)
-    return nodes, float((weights * across).sum() / weights.sum())
+    covered = np.bincount(labels.ravel(), weights=areas.ravel())[1:]
+    return np.asarray(covered, float), float((weights * across).sum() / weights.sum())

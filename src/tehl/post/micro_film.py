@@ -8,7 +8,7 @@ import numpy as np
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.problem import ContactProblem
-from tehl.post.roughness import in_contact, middle_film, square
+from tehl.post.roughness import areas_in_contact, in_contact, middle_film, square
 from tehl.post.traction import traction as traction_of
 from tehl.result.solution import Solution
 from tehl.roughness import Smooth
@@ -148,10 +148,15 @@ def roughness_effect(rough: Solution, smooth: Solution) -> RoughnessEffect:
         If ``smooth`` is not the reference run of ``rough``.
     """
     ripples, contact = micro_film(rough, smooth), in_contact(rough)
+    areas = areas_in_contact(rough)
     highest, without = float(rough.pressure.max()), float(smooth.pressure.max())
     here, there, traction = traction_of(rough), traction_of(smooth), None
-    if here and there and there.mid_film and rough.problem.slide_roll_ratio != 0:
-        traction = here.mid_film / there.mid_film
+    if here and there and there.size and rough.problem.slide_roll_ratio != 0:
+        traction = here.size / there.size
+
+    def rms(field: Array) -> float:
+        return math.sqrt(float(np.average(field[contact] ** 2, weights=areas)))
+
     return RoughnessEffect(
         central=rough.film.central / smooth.film.central,
         minimum=rough.film.minimum / smooth.film.minimum,
@@ -161,6 +166,6 @@ def roughness_effect(rough: Solution, smooth: Solution) -> RoughnessEffect:
         smooth_h_central_m=smooth.film.central,
         smooth_h_min_m=smooth.film.minimum,
         smooth_max_pa=without,
-        ripple_film_m=float(np.sqrt(np.mean(ripples.film[contact] ** 2))),
-        ripple_pressure_pa=float(np.sqrt(np.mean(ripples.pressure[contact] ** 2))),
+        ripple_film_m=rms(ripples.film),
+        ripple_pressure_pa=rms(ripples.pressure),
     )

@@ -58,7 +58,10 @@ def rolling_friction(result: Solution) -> Rolling | None:
         density = problem.lubricant.density.density(largest, scales.temperature) / scales.density
         oil = (density * np.take_along_axis(here.film, peaks, axis=1))[:, 0]
     slower = slowing(scaled, here.y)
-    lines = Lines(here.x, here.pressure, here.film, widths, slower)
+    between, whole = here.film, whole_pressure(result) / scales.hertz_pressure
+    if result.asperities is not None:
+        between = result.asperities.separation / scales.film_thickness
+    lines = Lines(here.x, here.pressure, between, widths, slower, whole)
     flow, ratio, tail = rolling(lines, oil, scaled.entering, scaled.moment)
     force = 0.5 * flow * scales.hertz_pressure * scales.film_thickness * scales.half_width_y
     area = scales.half_width_x**2 * scales.half_width_y

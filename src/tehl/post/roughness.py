@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.base.typing import Array, BoolArray
+from tehl.contact.shape import Shape
 from tehl.estimate.film_formulas import Lubrication, likely_film, lubrication, lubrication_by_share
 from tehl.post.boundary_contact import touching
 from tehl.post.film import no_film
@@ -63,7 +64,7 @@ class RoughFilm:
     ripple_film: float
     ripple_pressure: float
     """Root mean square of the film [m], and of the pressure less that of Hertz [Pa], about a
-    parabola where R < 0.5."""
+    parabola where R < 0.5, of a roller |X|, |Y| < 0.5."""
     ripples_x: Ripples
     ripples_y: Ripples
     """On the centre lines along and across entrainment."""
@@ -113,7 +114,8 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
     formula = likely_film(result.scaled_problem).central_m
     central = result.film.central if result.heights is None else middle_film(result)
     scaled, (row, column) = result.scaled, result.scaled.centre
-    ripple_film, ripple_pressure = ripples(scaled.x, scaled.y, scaled.film, scaled.pressure)
+    shape = result.groups.shape
+    ripple_film, ripple_pressure = ripples(scaled.x, scaled.y, scaled.film, scaled.pressure, shape)
     return RoughFilm(
         sq=(first, second),
         sq_on_grid=sq_on_grid(result),
@@ -150,8 +152,8 @@ def _solid_share(result: Solution) -> float | None:
     return patches.share + (0.0 if averaged is None else averaged.share)
 
 
-def ripples(x: Array, y: Array, film: Array, pressure: Array) -> tuple[float, float]:
-    """Return the rms of film and of pressure less that of Hertz, about a parabola [-].
+def ripples(x: Array, y: Array, film: Array, pressure: Array, shape: Shape) -> tuple[float, float]:
+    """Return the rms of film and of pressure less the dry one, about a parabola [-].
 
     Parameters
     ----------
@@ -160,17 +162,23 @@ def ripples(x: Array, y: Array, film: Array, pressure: Array) -> tuple[float, fl
         Coordinates in half-widths, y of the full or of the half domain.
     film, pressure : (ny, nx) array
         Dimensionless.
+    shape : Shape
+        Of the dry contact.
     """
-    radius = x**2 + y[:, None] ** 2
-    inside = radius < 0.5**2  # the middle of the contact
+    # the middle of the contact, and of the length of a roller
+    inside = (shape.radius_squared(x, y[:, None]) < 0.5**2) & (np.abs(y[:, None]) < 0.5)
     rows, columns = np.nonzero(inside)
-    # a half domain stands for both halves, but its row y = 0 for itself
-    weight = np.where(y[rows] == 0.0, 0.5 if y[0] == 0.0 else 1.0, 1.0)
+    along, across = x[columns], y[rows]
+    weight = cell_widths(y)[rows]
     root = np.sqrt(weight / weight.sum())
-    shape = np.stack([np.ones(rows.size), x[columns], x[columns] ** 2, y[rows] ** 2])
-    values = np.stack([film[inside], pressure[inside] - np.sqrt(1.0 - radius[inside])])
-    fitted, *_ = np.linalg.lstsq((root * shape).T, (root * values).T, rcond=None)
-    rest = (values - fitted.T @ shape) * root
+    terms = [np.ones(rows.size), along, along**2, across**2]
+    if y[0] != 0.0:  # not of a half domain
+        terms += [across, along * across]
+    parabola = np.stack(terms)
+    dry = shape.dry_pressure(x, y[:, None])
+    values = np.stack([film[inside], (pressure - dry)[inside]])
+    fitted, *_ = np.linalg.lstsq((root * parabola).T, (root * values).T, rcond=None)
+    rest = (values - fitted.T @ parabola) * root
     found = np.linalg.norm(rest, axis=1)
     return float(found[0]), float(found[1])
 
@@ -195,9 +203,18 @@ def sq_on_grid(result: Solution) -> tuple[float, float]:
     stated = (result.problem.surface_1.rms_roughness, result.problem.surface_2.rms_roughness)
     if result.heights is None:
         return stated
-    surfaces = (result.heights.surface_1, result.heights.surface_2)
-    first, second = (float(np.std(heights[square(result)])) for heights in surfaces)
+    part, surfaces = square(result), (result.heights.surface_1, result.heights.surface_2)
+    widths = cell_widths(result.y)[part[0]]
+    first, second = (
+        math.sqrt(_mean((heights[part] - _mean(heights[part], widths)) ** 2, widths))
+        for heights in surfaces
+    )
     return first or stated[0], second or stated[1]
+
+
+def _mean(field: Array, widths: Array) -> float:
+    """Return the mean of a field over even columns and over lines of widths (ny, 1)."""
+    return float((field.mean(axis=1) * widths[:, 0]).sum() / widths.sum())
 
 
 def square(result: Solution) -> tuple[Array, ...]:
@@ -208,7 +225,7 @@ def square(result: Solution) -> tuple[Array, ...]:
 def middle_film(result: Solution) -> float:
     """Return the mean film where |X|, |Y| < 0.4 [m]."""
     part = np.ix_(*(np.abs(axis) <= FIT_HALF_WIDTH for axis in (result.scaled.y, result.scaled.x)))
-    return float(result.film_thickness[part].mean())
+    return _mean(result.film_thickness[part], cell_widths(result.y)[part[0]])
 
 
 def in_contact(result: Solution, reach: float = 1.0) -> BoolArray:

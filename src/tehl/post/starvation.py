@@ -65,7 +65,7 @@ def starvation(result: Solution) -> Starvation | None:
         ratio=ratio,
         degree=degree,
         degree_error=error,
-        degree_by_law=min(ratio, 1.0) if result.problem.contact.is_line else starved_part(ratio),
+        degree_by_law=min(ratio, 1.0) if result.groups.shape.as_line else starved_part(ratio),
         flooded_film=None if flooded is None else flooded * unit,
         meniscus=at,
         inlet_distance=None if at is None else -at - result.scales.half_width_x,

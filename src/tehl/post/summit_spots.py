@@ -104,15 +104,13 @@ def spots(result: Solution, found: FilmAsperities) -> Spots | None:
 
 def _flash_rises(result: Solution, stress: Array, radius: Array) -> Array | None:
     """Return the rise at each node [K] by shear stress [Pa] and radius [m] of its spots."""
-    problem, motion = result.problem, result.problem.motion
-    sliding, cooling = abs(motion.speed_1 - motion.speed_2), np.zeros_like(radius)
-    for surface, speed in (
-        (problem.surface_1, motion.speed_1),
-        (problem.surface_2, motion.speed_2),
-    ):
+    motion, places = result.problem.motion, (result.x, result.y[:, None])
+    sliding, cooling = np.hypot(*motion.sliding_field(*places)), np.zeros_like(radius)
+    for number, surface in enumerate(result.problem.surfaces, 1):
+        speed = np.hypot(*motion.field_of(number, *places))
         conductivity, diffusivity = surface.material.conductivity, surface.material.diffusivity
         if conductivity is None or diffusivity is None:
             return None
-        peclet = abs(speed) * radius / (2.0 * diffusivity)
+        peclet = speed * radius / (2.0 * diffusivity)
         cooling += conductivity * np.sqrt(math.pi * (1.273 + peclet))
     return 2.0 * stress * sliding * radius / cooling

@@ -70,10 +70,18 @@ def friction(numbers: Numbers) -> float | None:
 
 
 def friction_error(numbers: Numbers) -> float | None:
-    """Return the bar of friction and loss: that of the traction if only the film has friction."""
-    bars = (numbers.get(f"errors.traction_{part}") for part in ("mid_film", "across"))
-    known: list[float] = [bar for bar in bars if bar is not None]
-    return None if has_solids(numbers) or not known else max(known)
+    """Return the bar of friction: that of the traction if only the film has friction.
+
+    Each direction counts by its part of the square.
+    """
+    parts = [
+        (numbers.get(f"traction.{part}") or 0.0, numbers.get(f"errors.traction_{part}"))
+        for part in ("mid_film", "across")
+    ]
+    whole = sum(part**2 for part, bar in parts if bar is not None)
+    if has_solids(numbers) or not whole:
+        return None
+    return float(sum(part**2 * bar for part, bar in parts if bar is not None) / whole)
 
 
 def largest_temperature(numbers: Numbers) -> float | None:
@@ -137,6 +145,12 @@ def power_loss(numbers: Numbers) -> float | None:
 
 
 def power_error(numbers: Numbers) -> float | None:
-    """Return the bar of the loss: the larger of those of friction and of rolling."""
-    known = friction_error(numbers), numbers.get("errors.rolling")
-    return None if has_solids(numbers) else max((bar for bar in known if bar), default=None)
+    """Return the bar of the loss: the larger of those of friction and of rolling.
+
+    None also where that of friction is not known, and more than a hundredth of the loss is by it.
+    """
+    slides, slid = friction_error(numbers), numbers.get("traction.sliding_power_w") or 0.0
+    if has_solids(numbers) or (slides is None and abs(slid) > 0.01 * (film_loss(numbers) or 0.0)):
+        return None
+    known = slides, numbers.get("errors.rolling")
+    return max((bar for bar in known if bar), default=None)

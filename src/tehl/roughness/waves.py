@@ -29,6 +29,10 @@ class WaveVector(NamedTuple):
         """Return the wave number across the crests [rad/m]."""
         return math.hypot(self.along, self.across)
 
+    def rate(self, velocity: tuple[float, float]) -> float:
+        """Return the frequency at a place that it passes with a velocity [m/s], signed [rad/s]."""
+        return self.along * velocity[0] + self.across * velocity[1]
+
     @property
     def wavelength(self) -> float:
         """Return the distance of the crests [m]."""

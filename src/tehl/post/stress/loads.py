@@ -37,7 +37,7 @@ def on_even_lines(result: Solution) -> Solution:
     places = faces[:-1] + np.outer((np.arange(PLACES) + 0.5) / PLACES, np.diff(faces))
     weights = np.array([np.interp(places, y, one).mean(axis=0) for one in np.eye(y.size)]).T
     changes: dict[str, object] = {}
-    for name in ("scaled", "shear"):
+    for name in ("scaled", "shear", "asperities", "contact"):
         value = getattr(result, name)
         if value is not None:
             known = {one.name: getattr(value, one.name) for one in fields(value)}
@@ -76,7 +76,8 @@ def loads_on(result: Solution, body: int, *, without_shear: bool | None = None) 
         stress_y = np.where(wet, shear.across - sign * _rolling_across(result, film), 0.0)
     problem = result.problem
     if result.contact is not None and problem.contact_film is not None:
-        stress_x[touching_nodes(result)] = 0.0
+        meet = touching_nodes(result)
+        stress_x[meet] = stress_y[meet] = 0.0
     along, across = sliding_direction(result)
     stress_x -= along * rubbed
     stress_y -= across * rubbed

@@ -58,9 +58,10 @@ def passing_wave(run: TransientSolution, surface: int, *, x: float = 0.0) -> Pas
     transient = run.start.problem.transient
     if transient is not None and any(getattr(transient, key) for key in MOTION):
         raise InputError("the surfaces change their speeds: a wave has no period to fit")
-    speed, wave = run.start.problem.motion.speed_of(surface), _wave(run, surface)
-    rate = abs(wave.along * speed)
-    periods, steps = _periods(run, surface, rate, x)
+    velocity = run.start.problem.motion.velocity_of(surface)
+    wave = _wave(run, surface, velocity)
+    rate = abs(wave.rate(velocity))
+    periods, steps = _periods(run, surface, (wave, rate), x)
     harmonic = _harmonic(run.history.time, rate, periods)
     if not run.x[0] <= x <= run.x[-1]:
         raise InputError(f"x = {x:g} m: outside the domain, {run.x[0]:g} to {run.x[-1]:g} m")
@@ -78,28 +79,32 @@ def passing_wave(run: TransientSolution, surface: int, *, x: float = 0.0) -> Pas
         periods=periods,
         steps_per_period=steps,
         nabla=nabla,
-        published_ratio=amplitude_reduction(nabla, ratio=abs(wave.across / wave.along)),
+        published_ratio=amplitude_reduction(nabla, ratio=abs(wave.across / (wave.along or 1e-300))),
     )
 
 
-def _wave(run: TransientSolution, surface: int) -> WaveVector:
-    """Return the wave of a surface, or one of several of equal wavelength along x."""
+def _wave(run: TransientSolution, surface: int, velocity: tuple[float, float]) -> WaveVector:
+    """Return the wave of a surface, or one of several that pass at one frequency."""
     roughness = getattr(run.start.problem, f"surface_{surface}").roughness
     waves = list(waves_of(roughness))
     if not waves:
         raise InputError(f"surface_{surface} has no wave to fit: its roughness is {roughness.type}")
-    if not all(math.isclose(abs(one.along), abs(waves[0].along)) for one in waves):
+    first, *others = (abs(one.rate(velocity)) for one in waves)
+    if not all(math.isclose(one, first) for one in others):
         raise InputError(
-            f"surface_{surface} has waves of several lengths along x: a fit needs a single one"
+            f"surface_{surface} has waves that pass at several frequencies: a fit needs one alone"
         )
     return waves[0]
 
 
-def _periods(run: TransientSolution, surface: int, rate: float, x: float) -> tuple[int, float]:
+def _periods(
+    run: TransientSolution, surface: int, passing: tuple[WaveVector, float], x: float
+) -> tuple[int, float]:
     """Return the whole periods to fit, the last four at most, and the time steps in each."""
+    wave, rate = passing
     if not rate > 0:
         raise InputError(
-            f"the wave of surface_{surface} does not pass: its crests lie along x, or it stands"
+            f"the wave of surface_{surface} does not pass: it moves along its crests, or stands"
         )
     period = 2.0 * math.pi / rate
     steps = period / run.time_step
@@ -108,7 +113,7 @@ def _periods(run: TransientSolution, surface: int, rate: float, x: float) -> tup
             f"a period of the wave of surface_{surface} has {steps:.3g} time steps: a fit needs "
             f"{FEWEST_STEPS} or more; take more nodes"
         )
-    left = (float(run.history.time[-1]) - _arrival(run, surface, x)) / period
+    left = (float(run.history.time[-1]) - _arrival(run, surface, wave, x)) / period
     if math.floor(left + _WHOLE_NUMBER_TOLERANCE) < 1:
         raise InputError(
             f"the wave of surface_{surface} has been at x = {x:g} m for {max(left, 0.0):.2g} "
@@ -117,14 +122,17 @@ def _periods(run: TransientSolution, surface: int, rate: float, x: float) -> tup
     return min(math.floor(left + _WHOLE_NUMBER_TOLERANCE), 4), steps
 
 
-def _arrival(run: TransientSolution, surface: int, x: float) -> float:
+def _arrival(run: TransientSolution, surface: int, wave: WaveVector, x: float) -> float:
     """Return when a wave that enters at the inlet has reached ``x`` in full [s]."""
     problem = run.start.problem
     transient, speed = problem.transient, problem.motion.speed_of(surface)
     if transient is None or transient.start == "standing":
         return 0.0
     front = transient.entrance * run.start.scales.half_width_x
-    fade_in = min(2.0 * math.pi / abs(_wave(run, surface).along), 0.5 * front)
+    along = abs(wave.along)
+    fade_in = min(2.0 * math.pi / along, 0.5 * front) if along else 0.5 * front
+    if speed == 0.0:
+        return math.inf
     return (math.copysign(x, x * speed) + front + fade_in) / abs(speed)
 
 

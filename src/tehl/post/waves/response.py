@@ -12,6 +12,7 @@ from tehl.contact.problem import ContactProblem
 from tehl.estimate.wave_theory import (
     FlatFilm,
     LinearTheory,
+    Velocity,
     bulk_modulus,
     drift_of_heights,
     drifting_waves,
@@ -151,9 +152,9 @@ class _Waves:
     problem: ContactProblem
     heights: Array
     patch: "_Patch"
-    stated: dict[WaveVector, float]
+    stated: dict[WaveVector, Velocity]
     all: list[WaveVector]
-    drift: float | None  # speed of found waves less the mean speed [m/s]
+    drift: Velocity | None  # of found waves, less the mean one [m/s]
 
     @classmethod
     def of(cls, result: Solution) -> "_Waves | None":
@@ -184,7 +185,8 @@ class _Waves:
         """
         drift, straight = self.stated.get(wave, self.drift), self.patch.straight(wave)
         if drift is None:
-            return level.theory(straight, amplitude, -self.problem.entrainment_speed, holds=False)
+            standing = -self.problem.entrainment_speed, 0.0
+            return level.theory(straight, amplitude, standing, holds=False)
         holds = why_no_theory(self.problem) is None
         return level.theory(straight, amplitude, drift, holds=holds)
 

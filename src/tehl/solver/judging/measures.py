@@ -75,8 +75,9 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     if level.equations.groups.shape.as_line:
         found |= line_rolling(level, scaled)
     if level.sources.heights is not None:
-        ripple_film, ripple_pressure = ripples(level.grid.x, level.grid.y, level.film.h, pressure)
-        found |= {"ripple_film": ripple_film, "ripple_pressure": ripple_pressure}
+        grid, shape = level.grid, level.equations.groups.shape
+        waves = ripples(grid.x, grid.y, level.film.h, pressure, shape)
+        found |= {"ripple_film": waves[0], "ripple_pressure": waves[1]}
     if state is None and scaled.problem.is_coupled:  # a coarse grid, still isothermal
         return found
     if state is not None and state.grid != level.grid:
@@ -113,16 +114,14 @@ def _sliding(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     The ``_tail`` of each is the part of it that the zone may have beyond the sides of the grid, and
     the error of cells that its edge cuts.
     """
-    found = {}
+    found, skew = {}, scaled.groups.skew
     for name, (part, speed) in _parts(scaled).items():
         if speed:
             found[name] = mid_film_traction(level, scaled, state, part=part)
             wet = mid_film_stress(level, scaled, state, part) * wet_part(level.film.p)
-            inside = level.equations.balances.integral(
-                wet * zone_of(level.grid, scaled.groups.skew)
-            )
+            inside = level.equations.balances.integral(wet * zone_of(level.grid, skew))
             if inside:  # not if all oil is cavitated
-                outside = abs(beside(level.grid, wet, scaled.groups.skew) / inside)
+                outside = abs(beside(level.grid, wet, skew) / inside)
                 found[f"{name}_tail"] = outside + cut_error(level.grid)
     return found
 
@@ -132,8 +131,8 @@ def _parts(scaled: ScaledProblem) -> dict[str, tuple[Part, float]]:
     motion, moment = scaled.problem.motion, scaled.moment
     return {
         "traction_mid_film": ("x", moment.sliding),
-        "traction_across": ("y", moment.across),
-        "drilling_moment": ("z", motion.spin_1 - motion.spin_2),
+        "traction_across": ("y", moment.across or motion.spin_1 - motion.spin_2),
+        "drilling_moment": ("z", math.hypot(motion.spin_1, motion.spin_2)),
     }
 
 
@@ -196,7 +195,7 @@ def rolling_integral(level: Level, scaled: ScaledProblem) -> tuple[float, float]
     peaks, oil = film.p.argmax(axis=1)[:, None], None
     if scaled.problem.supply is None or film.partial[0, 0] == 0:  # it reaches further upstream
         oil = np.take_along_axis(film.rho * film.h, peaks, axis=1)[:, 0]
-    lines = Lines(grid.x, film.p, film.h, grid.widths, slowing(scaled, grid.y))
+    lines = Lines(grid.x, film.p, level.separation, grid.widths, slowing(scaled, grid.y))
     found, _, tail = rolling(lines, oil, scaled.entering, scaled.moment)
     return found, tail
 

@@ -244,7 +244,10 @@ def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:
     film = level.film
     full = film.rho * np.maximum(film.h, level.equations.floor)
     fill = np.where(film.partial > 0, np.minimum(held / full, 1.0), 1.0)
-    for edge in grid.edge_rows:  # nothing is solved there
+    if film.speed.size:  # nothing is solved where oil leaves, nor on the sides
+        forth = film.speed > 0.0
+        fill[forth, -1], fill[~forth, 0] = fill[forth, -2], fill[~forth, 1]
+    for edge in grid.edge_rows:
         fill[edge] = fill[1 if edge == 0 else -2]
     return FilmOil(
         fill=fill,
