@@ -27,6 +27,7 @@ from tehl.result.bars import ErrorEstimate
 from tehl.solver import steady
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.iteration import GridIteration
+from tehl.solver.judging import diagnosis
 from tehl.solver.judging.convergence import GridTrace
 from tehl.solver.judging.film_errors import PART_AT_EXIT
 from tehl.solver.judging.film_summary import film_summary
@@ -157,6 +158,14 @@ def test_the_memory_limits_the_grid_and_the_result_says_so():
     assert "numerics.max_memory is 0.05 GB" in result.status.message
     assert result.scaled.film.size * 180 < 50e6
     assert result.errors.central < 0.01  # that of the largest grid
+
+
+def test_a_hint_says_something_where_no_error_was_reached(monkeypatch):
+    monkeypatch.setattr(diagnosis, "LARGEST_ERROR", 1e-5)
+    options = Options.model_validate({"error": 1e-4, "max_memory": "50 MB"})
+    with pytest.raises(ConvergenceError) as caught:
+        solve(moes_contact(20.0, 5.0), options)
+    assert str(caught.value.result.status.hint).startswith("Take a larger numerics.max_memory")
 
 
 @pytest.mark.parametrize("load", [0.1, 1.0])

@@ -75,6 +75,10 @@ def command(*words):
         ("roller length / mm", "contact.length", "mm"),
         ("misalignment [mrad]", "contact.tilt", "mrad"),
         ("oil", "lubricant.oil", ""),
+        ("Last [N]", "contact.load", "N"),
+        ("Geschwindigkeit [m/s]", "contact.entrainment_speed", "m/s"),
+        ("Öl", "lubricant.oil", ""),
+        ("Werkstoff 2", "surface_2.material", ""),
         ("remark", None, ""),
     ],
 )
@@ -183,6 +187,27 @@ def test_the_viscosities_of_a_data_sheet_replace_the_law_of_the_template(tmp_pat
     assert "alpha" in without.message
 
 
+def test_values_that_are_not_plausible_are_named_beside_their_row(tmp_path, template):
+    path = tmp_path / "list.csv"
+    path.write_text("load [N],Ra 1 [um]\n20,0.01\n20,400000\n")
+    usual, wrong = answers(read_contacts(path, template), Store(tmp_path / "store"))
+    assert usual["obtained"] == "not solved yet"
+    assert wrong["obtained"].startswith("not solved yet; please check: ")
+    assert "typical values are" in wrong["obtained"]
+
+
+def test_texts_of_a_sheet_may_have_decimal_commas(tmp_path, template):
+    path = tmp_path / "list.xlsx"
+    for cells, load in ((["20,5", "1.250,5"], [20.5, 1250.5]), ([20.5, "1250.5"], [20.5, 1250.5])):
+        pd.DataFrame({"load [N]": cells, "remark": ["a", "b"]}).to_excel(path, index=False)
+        found = read_contacts(path, template)
+        assert [case.problem.load for case in found.cases] == pytest.approx(load)
+        assert found.carried == ["remark"]
+    pd.DataFrame({"load [N]": ["20,5", "1.250"]}).to_excel(path, index=False)
+    (wrong,) = read_contacts(path, template).wrong
+    assert "write 1250 or 1,250" in wrong.message
+
+
 def read_case_tables(path):
     """Return the tables of a case file."""
     return tehl.io.case.toml_tables(path)
@@ -208,7 +233,9 @@ def test_wrong_headings_are_one_sentence(tmp_path, template):
             'such as load [N]: its first row must have the headings, and is "remark"',
         ),
         ("strange\n5\n", "has no column that a case file knows"),
-        ("load,strange\n5,6\n", 'the column "strange" is not known'),
+        ("load,xyzzy\n5,6\n", 'the column "xyzzy" is not known; take a usual word (load, p_h'),
+        ("load,Ölsorte\n5,ISO VG 32\n", "and its cells name oils: call it oil, or remove it"),
+        ("load,Kugel\n5,steel\n", "and its cells name solids: call it material 1 or material 2"),
     ):
         path.write_text(text)
         with pytest.raises(InputError) as caught:
@@ -324,20 +351,23 @@ def test_friction_and_loss_contain_those_of_asperities():
     assert values["load on asperities [%]"] == 50.0
     assert values["kappa, as lambda^1.3"] == pytest.approx(2.0**1.3)
     oil = {"traction.mid_film": -3.0, "traction.credible": False}
-    assert "friction" not in values_of(oil)
+    oil |= {"temperature.film_rise_max_k": 110.0, "bodies.heat_1_w": 39.7, "film.h_min_m": 1e-7}
+    assert list(values_of(oil)) == ["minimum film [nm]"]
+    assert len(values_of(oil | {"traction.credible": True})) > 3
     row = Row(key="a", status="converged", summary=oil)
-    assert "no friction, as this oil shears at more stress" in _obtained(row)
+    assert "no friction or heat, as this oil shears at more stress" in _obtained(row)
 
 
 def test_a_loss_by_rolling_is_that_of_the_whole_line_or_not_known():
     """Of thick films the loaded zone has a part that falls short of it, or is negative."""
     zone = {"traction.friction_power_w": -42.9, "traction.sliding_power_w": 11.4}
+    zone |= {"traction.mid_film": 0.01, "errors.traction_mid_film": 0.004}
     line = {"rolling.power_w": 282.4, "errors.rolling": 0.02}
     assert values_of(zone | line)["friction loss [W]"] == pytest.approx(293.8)
     assert values_of(zone | line)["± friction loss [W]"] == pytest.approx(0.02 * 293.8)
     assert "friction loss [W]" not in values_of(zone)
     row = Row(key="a", status="converged", summary=zone)
-    assert "no loss, as so thick a film" in _obtained(row)
+    assert "no loss, as that by rolling" in _obtained(row)
 
 
 def test_a_row_says_which_of_its_empty_cells_the_template_states():

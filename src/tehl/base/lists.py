@@ -192,11 +192,7 @@ def _csv(path: Path) -> Iterator[tuple[int, list[str]]]:
         file.seek(0)
     for number, line in _records(file, spelling.delimiter, 1 + skipped):
         cells = [cell.strip() for cell in line]
-        if spelling.decimal == ",":
-            cells = [
-                Doubtful(cell) if _THOUSANDS.fullmatch(cell) else _pointed(cell) for cell in cells
-            ]
-        yield number, cells
+        yield number, [_of_commas(cell) for cell in cells] if spelling.decimal == "," else cells
 
 
 def _records(file: StringIO, delimiter: str, first: int) -> Iterator[tuple[int, list[str]]]:
@@ -221,6 +217,12 @@ def _sheet(path: Path) -> list[tuple[int, list[Any]]]:
             if not width:
                 width = max((k + 1 for k, cell in enumerate(line) if stripped(cell)), default=0)
             lines.append([*line, *[None] * width][:width])
+    texts = [cell.strip() for line in lines for cell in line if isinstance(cell, str)]
+    if any((found := _DECIMAL_COMMA.match(cell)) and len(found[2]) != 3 for cell in texts):
+        lines = [
+            [_of_commas(cell.strip()) if isinstance(cell, str) else cell for cell in line]
+            for line in lines
+        ]
     if not any(cell is None for line in lines for cell in line):
         return list(enumerate(lines, 1))
     # an empty cell would be that of the template: a formula without its value must not look empty
@@ -299,6 +301,11 @@ def _delimiter(first: str) -> str:
     if (stated := _STATED_DELIMITER.fullmatch(first)) is not None:
         return stated[1]
     return next((mark for mark in ";\t" if mark in first), ",")
+
+
+def _of_commas(cell: str) -> str:
+    """Return a cell of a list with decimal commas with a decimal point, or as doubtful."""
+    return Doubtful(cell) if _THOUSANDS.fullmatch(cell) else _pointed(cell)
 
 
 def _pointed(cell: str) -> str:

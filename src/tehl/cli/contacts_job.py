@@ -40,6 +40,8 @@ def run(  # noqa: PLR0913 (the arguments of the command)
             "case",
             err=True,
         )
+    if found.carried and not quiet:
+        show(f"columns that state nothing: {', '.join(found.carried)}", err=True)
     first = 0 if found.cases else 1  # that is the error
     for row in found.wrong[first:MOST_NAMED_CASES]:
         show(f"tehl: {row.message}", err=True)

@@ -81,16 +81,14 @@ def run(job: Job) -> bool:
     elif references and failure is None:
         compared = _compared(result, references, job)
     _show(result, compared, job)
-    _ask(problem, options, job)
+    _ask(problem, options)
     if failure is not None:
         show(failure_text(result.status, failure), err=True)
     return failure is None
 
 
-def _ask(problem: ContactProblem, options: Options, job: Job) -> None:
-    """Print which values of the case are not plausible, as ``tehl explain`` does."""
-    if job.as_json or job.quiet:
-        return
+def _ask(problem: ContactProblem, options: Options) -> None:
+    """Print which values of the case are not plausible on stderr, as ``tehl explain`` does."""
     questions = explanations.explain(problem, options).questions
     if questions:
         show("\n".join(["Please check", *(f"  - {one}" for one in questions)]), err=True)

@@ -17,6 +17,7 @@ from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.post.transient import largest_change, passing_features
 from tehl.post.waves import PassingWave, passing_wave
+from tehl.report.explain import explain
 from tehl.report.notebook import data_url
 from tehl.report.readable import UNTITLED, input_rows
 from tehl.report.rendering import FILTERS, UNITS, render
@@ -112,6 +113,7 @@ def _shared(result: Solution | TransientSolution, pictures: Pictures, dpi: int) 
         "inputs": _inputs(start),
         "no_film": no_film(start),
         "rough": rough_film(start),
+        "questions": explain(start.problem, start.options).questions,
         "pictures": [
             (caption, data_url(pictures[name](result), dpi))
             for name, caption in CAPTIONS.items()

@@ -101,9 +101,8 @@ def questions(
     heights : Asperities or None
         Heights of rough surfaces.
     """
-    ranges = (one.question() for one in typical_ranges(scaled))
     return (
-        *(question for question in ranges if question),
+        *untypical(scaled),
         *_about_groove(scaled.problem),
         *_about_limits(scaled.problem),
         *about_ends(scaled),
@@ -116,6 +115,11 @@ def questions(
         *_about_grid(options, scaled),
         *(_about_heights(scaled, planned(scaled, options), heights) if heights else ()),
     )
+
+
+def untypical(scaled: ScaledProblem) -> list[str]:
+    """Return the values of a case that lie outside of their typical ranges, a sentence each."""
+    return [found for one in typical_ranges(scaled) if (found := one.question())]
 
 
 def typical_ranges(scaled: ScaledProblem) -> Iterator[Typical]:

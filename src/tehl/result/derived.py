@@ -84,6 +84,12 @@ def friction_error(numbers: Numbers) -> float | None:
     return float(sum(part**2 * bar for part, bar in parts if bar is not None) / whole)
 
 
+def is_unphysical(path: str, numbers: Numbers) -> bool:
+    """Return whether a number is the heat of a friction that no oil transmits."""
+    is_heat = path.split(".", maxsplit=1)[0] in ("temperature", "heat", "bodies", "temperature_max")
+    return is_heat and numbers.get("traction.credible") is False
+
+
 def largest_temperature(numbers: Numbers) -> float | None:
     """Return the largest temperature of the film [K]; None for an isothermal run."""
     inlet, rise = (numbers.get(f"temperature.{key}") for key in ("inlet_k", "film_rise_max_k"))

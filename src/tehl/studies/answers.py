@@ -12,7 +12,9 @@ from tehl.base.atomic import replacing
 from tehl.base.lists import check_format, lines_of_frame, plain_value
 from tehl.base.units import percentage
 from tehl.base.wording import grid_size
-from tehl.result.derived import film_loss
+from tehl.estimate.scaling import ScaledProblem
+from tehl.report.plausibility import untypical
+from tehl.result.derived import film_loss, is_unphysical
 from tehl.result.quantity import Quantity
 from tehl.result.registry import shown_in
 from tehl.studies.case import Row
@@ -51,6 +53,8 @@ def values_of(numbers: Mapping[str, Any]) -> dict[str, float]:
     """
     found: dict[str, float] = {}
     for one in shown_in("list"):
+        if is_unphysical(one.path, numbers):
+            continue
         value = numbers.get(one.path) if one.block else one.of(numbers)
         if not isinstance(value, int | float):
             continue
@@ -91,8 +95,10 @@ def _line(row: Listed, columns: Sequence[Column], found: Row | None) -> dict[str
         values = values_of(found.summary)
         line |= {name: value for name, value in values.items() if _key_of(name) not in stated}
         line["regime"] = found.summary.get("roughness.lubrication")
+    doubts = [] if row.case is None else untypical(ScaledProblem.of(row.case.problem))
     line["status"] = "wrong row" if row.case is None else found.status if found else "open"
-    line["obtained"] = row.message if row.case is None else _obtained(found, row.taken)
+    obtained = row.message if row.case is None else _obtained(found, row.taken)
+    line["obtained"] = "; please check: ".join([obtained, *doubts])
     return line
 
 
@@ -124,11 +130,12 @@ def _obtained(row: Row | None, taken: Sequence[str] = ()) -> str:
     if taken:
         text = f"{text}; of the template: {', '.join(taken)}"
     if row.summary.get("traction.credible") is False:
-        text = f"{text}; no friction, as this oil shears at more stress than oils bear: {_EYRING}"
+        why = "as this oil shears at more stress than oils bear"
+        text = f"{text}; no friction or heat, {why}: {_EYRING}"
     elif (
         row.summary.get("traction.friction_power_w") is not None and film_loss(row.summary) is None
     ):
-        text = f"{text}; no loss, as so thick a film has its pressure outside of the loaded zone"
+        text = f"{text}; no loss, as that by rolling comes out negative in the loaded zone"
     return f"{text}. {row.message} {row.hint}" if row.hint else text  # converged, but uncertain
 
 

@@ -86,6 +86,11 @@ class Contacts:
         return [row.case for row in self.rows if row.case is not None]
 
     @property
+    def carried(self) -> list[str]:
+        """Headings of columns of words that state nothing of a contact."""
+        return [one.heading for one in self.columns if one.key is None and one.heading]
+
+    @property
     def wrong(self) -> list[Listed]:
         """Rows that are not."""
         return [row for row in self.rows if row.case is None]

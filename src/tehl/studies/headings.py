@@ -10,23 +10,29 @@ from typing import Any
 from tehl.api.problem import ContactProblem
 from tehl.base.errors import InputError
 from tehl.base.keys import field_at, key_paths, models_at, quantity_of
+from tehl.base.named import Library
 from tehl.base.units import ForcePerLength, is_per_turn, is_unit, plain_signs, quantity
 from tehl.base.wording import short
+from tehl.contact.materials import SOLIDS
 from tehl.contact.options import Options
 from tehl.io.case import plain_value
+from tehl.lubricant.fluid import OILS
 
 _WORDS = (
     {
         "contact.type": "type contact_type",
-        "contact.load": "load force normal_load normal_force ball_load w q f_n",
-        "contact.load_per_length": "load_per_length line_load unit_load specific_load w_l",
-        "contact.hertz_pressure": "p_h ph p_hertz p0 p_0 hertz_pressure hertzian_pressure",
+        "contact.load": "load force normal_load normal_force ball_load w q f_n "
+        "last kraft normalkraft",
+        "contact.load_per_length": "load_per_length line_load unit_load specific_load w_l "
+        "linienlast streckenlast",
+        "contact.hertz_pressure": "p_h ph p_hertz p0 p_0 hertz_pressure hertzian_pressure "
+        "pressung hertzsche_pressung",
         "contact.entrainment_speed": "u_m u speed entrainment_speed entrainment mean_speed "
-        "entraining_speed rolling_speed",
-        "contact.slide_roll_ratio": "srr slip slide_roll_ratio slide_to_roll_ratio",
+        "entraining_speed rolling_speed geschwindigkeit rollgeschwindigkeit",
+        "contact.slide_roll_ratio": "srr slip slide_roll_ratio slide_to_roll_ratio schlupf",
         "contact.entrainment_angle": "entrainment_angle angle",
         "contact.sliding_angle": "sliding_angle skew_angle",
-        "contact.length": "length roller_length effective_length l_we",
+        "contact.length": "length roller_length effective_length l_we länge rollenlänge",
         "contact.tilt": "tilt misalignment",
         "contact.tilting_moment": "tilting_moment misalignment_moment",
         "contact.profile.shape": "profile roller_profile",
@@ -34,15 +40,16 @@ _WORDS = (
         "contact.radius_x": "r_x rx radius_x reduced_radius_x",
         "contact.radius_y": "r_y ry radius_y reduced_radius_y",
         "lubricant.temperature": "temperature oil_temperature inlet_temperature temp oil_temp "
-        "lube_temp t_oil t",
-        "lubricant.oil": "oil lubricant",
+        "lube_temp t_oil t temperatur öltemperatur",
+        "lubricant.oil": "oil lubricant öl oel schmierstoff",
         "lubricant.viscosity.nu_40": "nu_40 nu40 kv40 kv_40 viscosity_40",
         "lubricant.viscosity.nu_100": "nu_100 nu100 kv100 kv_100 viscosity_100",
         "lubricant.viscosity.eta_0": "eta_0 eta eta0 viscosity dynamic_viscosity",
         "lubricant.viscosity.alpha": "alpha pressure_viscosity_coefficient",
         "supply.ratio": "supply_ratio",
         "numerics.error": "error accuracy",
-        "title": "title name contact position id no number nr bearing designation",
+        "title": "title name contact position id no number nr bearing designation "
+        "bezeichnung lager lfd_nr",
     }
     | {
         f"surface_{side}.{key}": " ".join(f"{word}_{side} {word}{side}" for word in words.split())
@@ -50,7 +57,7 @@ _WORDS = (
         for key, words in {
             "rms_roughness": "rms_roughness sq rq sigma",
             "ra_roughness": "ra_roughness ra sa",
-            "material": "material solid",
+            "material": "material solid werkstoff",
             "radius": "radius r",
             "radius_x": "radius_x r_x rx",
             "radius_y": "radius_y r_y ry",
@@ -166,22 +173,44 @@ def check_columns(columns: Sequence[Column], lines: Sequence[Sequence[Any]]) -> 
             f"headings, and is {short(found, 80)}"
         )
     for place, one in enumerate(columns):
-        if one.key is not None or not one.heading:
-            continue
-        values = [line[place] for line in lines if line[place] is not None]
-        numeric = [isinstance(plain_value(str(value)), int | float) for value in values]
-        if one.unit or (values and all(numeric)):
-            known = [*_KEYS, *_paths()]
-            word = re.split(r"[\[(/]", one.heading)[0].strip().lower()
-            near = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
-            guess = (
-                f"did you mean {near[0]}?"
-                if near
-                else "take a key of the case file, or title if it names the rows"
+        if one.key is None and one.heading:
+            _check_carried(one, [line[place] for line in lines if line[place] is not None])
+
+
+def _check_carried(column: Column, values: Sequence[Any]) -> None:
+    """Raise for a column that states nothing if it has numbers or a unit, or names of a library."""
+    numeric = [isinstance(plain_value(str(value)), int | float) for value in values]
+    if column.unit or (values and all(numeric)):
+        raise InputError(f'the column "{column.heading}" is not known; {_guess(column)}')
+    for library, word in ((OILS, "oil"), (SOLIDS, "material 1 or material 2")):
+        if values and all(_is_named(library, value) for value in values):
+            raise InputError(
+                f'the column "{column.heading}" is not known, and its cells name {library.kind}s: '
+                f"call it {word}, or remove it"
             )
-            if is_per_turn(one.unit):
-                guess = (
-                    "a contact has speeds, or a rotational speed with the radius at which the "
-                    'surfaces move: take u_m [m/s], or values such as "500 rpm at 40 mm" below u_m'
-                )
-            raise InputError(f'the column "{one.heading}" is not known; {guess}')
+
+
+def _guess(column: Column) -> str:
+    """Return what a heading may mean."""
+    if is_per_turn(column.unit):
+        return (
+            "a contact has speeds, or a rotational speed with the radius at which the "
+            'surfaces move: take u_m [m/s], or values such as "500 rpm at 40 mm" below u_m'
+        )
+    word = re.split(r"[\[(/]", column.heading)[0].strip().lower()
+    near = difflib.get_close_matches(word, [*_KEYS, *_paths()], n=1, cutoff=0.6)
+    usual = "load, p_h, u_m, SRR, R_x, temperature, nu_40, Ra 1"
+    return (
+        f"did you mean {near[0]}?"
+        if near
+        else f"take a usual word ({usual}), a key of the case file, or title if it names the rows"
+    )
+
+
+def _is_named(library: Library, value: Any) -> bool:
+    """Return whether a library has a name."""
+    try:
+        library.find(str(value))
+    except ValueError:
+        return False
+    return True

@@ -60,6 +60,8 @@ PART_AT_START = 0.5
 run starts: its film becomes thinner where the motion slows down. The minimum of an ellipse whose
 entrainment turns round (M = 500) is 0.8 % below that on 321 x 641 nodes at the start and 2.3 % at
 the end, on 193 x 385."""
+TOO_THIN = "No grid resolves so thin a film: a smaller load, or a larger speed, makes it thicker."
+"""Advice where no grid may be finer."""
 BETWEEN_MARGIN, SCARCE_MARGIN = 1.05, 1.25
 """Margins of the error bars of another grid, the second one where oil is scarce: there minima at
 the sides converge with an order of 1.5 (a ring, M = 30,000)."""
@@ -379,18 +381,22 @@ class Goal:
             self.obstacle = (
                 f"{percentage(supply)} are due to the flooded film, of which supply.ratio is a part"
             )
+            self.advice = "Take a longer numerics.max_time, or state the supply as a layer."
         elif max(nx, ny) > MOST_NODES_PER_AXIS:
             self.obstacle = f"grids have at most {MOST_NODES_PER_AXIS} nodes along one direction"
+            self.advice = TOO_THIN
         elif needed > available:
             self.obstacle = (
                 f"{grid_size((nx, ny))} need {needed / 1e9:.2g} GB of memory, and "
                 f"{_named_limit(self.options, available)}"
             )
+            self.advice = "Take a larger numerics.max_memory, or a larger numerics.error."
         elif now + expected > self.until:
             self.obstacle = (
                 f"{grid_size((nx, ny))} would take {expected:.3g} s more, and numerics.max_time is "
                 f"{limit:g} s"
             )
+            self.advice = "Take a longer numerics.max_time, or a larger numerics.error."
         return not self.obstacle
 
     def _beyond(self, domain: Domain, error: float) -> tuple[str, str]:

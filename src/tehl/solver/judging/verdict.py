@@ -33,6 +33,7 @@ from tehl.solver.judging.diagnosis import (
 from tehl.solver.judging.ends import missed_at_ends, pressed_at_end, thinnest_at_end
 from tehl.solver.judging.film_errors import misses_ends
 from tehl.solver.judging.film_summary import film_summary
+from tehl.solver.judging.goal import TOO_THIN
 from tehl.solver.judging.measures import is_resolved, is_thinnest_at_end
 from tehl.solver.judging.outputs import asperity_balance, contact_balance, heat_balance
 
@@ -360,7 +361,7 @@ def _error_status(run: FilmSolver) -> Status:
         "error_not_reached",
         f"The error bars on {nodes} are {percentage(errors.central)} of the central{minimum}, "
         f"above numerics.error = {target}: {goal.obstacle or 'the next grid does not converge'}.",
-        Hint(settings=settings) if settings else Hint(goal.advice),
+        Hint(settings=settings) if settings else Hint(goal.advice or TOO_THIN),
     )
 
 
