@@ -338,6 +338,20 @@ def test_what_comes_back_ends_the_decay(passed):
     assert more[-1] > 1.02 * passed.passes.film_central[-1]
 
 
+def test_oil_that_passes_push_aside_gets_more_lines():
+    """A ball on its inner ring (a_y/a_x = 9): 129 x 33 nodes hold one pass, and not the next."""
+    case = {
+        "contact": {"load": 300.0, "entrainment_speed": 1.75},
+        "surface_1": {"material": "steel", "radius": 4.76e-3},
+        "surface_2": {"material": "steel", "radius_x": 18.24e-3, "radius_y": -4.95e-3},
+        "lubricant": {"oil": "iso-vg-100", "temperature": 333.15},
+        "supply": {"layer": 5e-8, "passes": 2, "track": 0.1},
+    }
+    found = solve_passes(case_from_tables(case)[0])
+    assert found.status.converged
+    assert found.passes.film_central[1] == pytest.approx(found.passes.film_central[0], rel=0.02)
+
+
 def test_passes_are_stored(passed, tmp_path):
     save(passed, tmp_path / "passed.nc")
     again = load(tmp_path / "passed.nc")

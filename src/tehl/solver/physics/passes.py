@@ -147,7 +147,10 @@ def _one_pass(
         if result.status.cause not in TOO_COARSE:
             break
         ny, nx = options.shape
-        options = options.on_points(2 * nx - 1, 2 * ny - 1)
+        # few lines are enough for an even layer, but not for the oil that the passes push aside
+        options = (
+            options.on_points(nx, nx) if ny < nx else options.on_points(2 * nx - 1, 2 * ny - 1)
+        )
     return result
 
 
