@@ -13,6 +13,7 @@ from tehl.cli.text import as_text
 from tehl.estimate.duration import PASSED_DISTANCE
 from tehl.post.transient import envelope, largest_change, moving_profiles, passing_features
 from tehl.post.waves import passing_wave
+from tehl.report.page import report_text
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_transient import make_certified, make_transient, passing
 
@@ -166,6 +167,33 @@ def test_extremes_at_the_end_of_a_run_of_unstated_duration_are_named():
     certified = make_certified()
     bar = replace(certified.uncertainty["film_minimum"], uncertainty=film.max())
     assert replace(late, uncertainty={"film_minimum": bar}).late_extremes == ()
+
+
+def test_extremes_that_grid_and_steps_do_not_resolve_are_named():
+    run = make_transient()
+    film, step = run.history.film_central.copy(), run.history.time.size // 2
+    film[step - 1 : step + 2] *= 0.8
+    film[step] *= 0.95  # 4/0.95 - 2 differences of 5 %
+    lines = run.profiles.pressure.copy()
+    lines[run.history.pressure_max.argmax(), lines.shape[1] // 2] = 3.0 * lines.max()
+    sharp = replace(
+        run,
+        history=replace(run.history, film_central=film),
+        profiles=replace(run.profiles, pressure=lines),
+    )
+    found = sharp.summary()["unresolved"]
+    bend = abs(film[step - 1] - 2.0 * film[step] + film[step + 1]) / film[step]
+    assert bend > 0.05
+    words = f"passes within a few steps, so that it errs by about {300.0 * bend:.2g} %"
+    assert found["film_central_least"] == words
+    assert found["pressure_max"].startswith("the spike is narrower than the mesh")
+    assert f"the least {words}\n  largest pressure" in as_text(sharp)
+    assert f"Central film, least: {words}." in report_text(sharp)
+    certified = make_certified().uncertainty
+    assert replace(sharp, uncertainty=certified).summary()["unresolved"] == {}
+    even = replace(run.history, film_central=0.0 * film + 1e-7, film_minimum=0.0 * film + 1e-7)
+    flat = replace(run.profiles, pressure=0.0 * lines + 1e9)
+    assert replace(run, history=even, profiles=flat).summary()["unresolved"] == {}
 
 
 @pytest.mark.parametrize(

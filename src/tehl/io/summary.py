@@ -20,6 +20,7 @@ from tehl.post.transient_numbers import (
     late_extremes,
     longer_duration,
     sliding_power,
+    unresolved,
 )
 from tehl.result import quantities, registry
 from tehl.result.quantity import Quantity
@@ -173,6 +174,7 @@ def _transient(run: TransientSolution) -> Block:
         else:
             content[block] = found
     content |= {
+        "unresolved": unresolved(run),
         "cycles": {"per_step": cycles.mean(), "most": cycles.max(), "total": cycles.sum()},
         "cost": asdict(run.cost),
         "start": summary(run.start),

@@ -12,6 +12,7 @@ from tehl.post.transient_numbers import (
     late_extremes,
     longer_duration,
     sliding_power,
+    unresolved,
     why_share_unknown,
 )
 from tehl.result.quantity import Quantity
@@ -73,6 +74,7 @@ def following(result: Solution | TransientSolution) -> Following | dict[str, Any
             "lambda_central": lambda_central(result),
             "sliding_power": sliding_power(result),
             "late_extremes": late_extremes(result),
+            "unresolved": unresolved(result),
             "longer_duration": longer_duration(result),
             "why_share_unknown": why_share_unknown(result),
             "way": way(result),
