@@ -1,6 +1,7 @@
 """Gears and cams: geometry of another program, and tables of a case over time."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -91,8 +92,13 @@ def test_a_cam_turns_its_entrainment_twice():
     cam_speed, follower = 100.0 * here["radius"], 100.0 * bend
     assert here["entrainment_speed"] == pytest.approx(0.5 * (cam_speed + follower), rel=1e-6)
     assert here["sliding_speed"] == pytest.approx(cam_speed - follower, rel=1e-6)
-    with pytest.raises(InputError, match="both must be positive"):
+    with pytest.raises(InputError, match="both must be positive") as caught:
         replace(cam, base_radius=5e-3).at(0.0)
+    least = 1e-3 * float(re.search(r"base_radius above ([\d.]+) mm", str(caught.value))[1])
+    angles = np.linspace(-cam.half_angle, cam.half_angle, 101)
+    assert min(replace(cam, base_radius=1.01 * least).at(one)["radius"] for one in angles) > 0.0
+    with pytest.raises(InputError):
+        [replace(cam, base_radius=0.98 * least).at(one) for one in angles]
 
 
 def test_a_whole_turn_of_a_cam_is_planned_on_the_nodes_of_its_thick_film():

@@ -22,6 +22,7 @@ from tehl.estimate.film_formulas import (
 from tehl.estimate.nodes import expected_bar, planned
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.spin import flooded_reach, outside_by_spin
+from tehl.estimate.starvation import supplied_film
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
 from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
@@ -245,6 +246,7 @@ def _about_film(scaled: ScaledProblem) -> Iterator[str]:
             "radius: Reynolds' equation needs a thin one, and a run accepts "
             f"{LARGEST_FILM_PART:g} at most; {thick_film_advice(scaled.problem)}"
         )
+    film = min(film, supplied_film(scaled) * scaled.scales.film_thickness)
     if film < 5e-9:
         yield (
             f"the expected film of {film * 1e9:.2g} nm is a few molecules: the oil is not a "

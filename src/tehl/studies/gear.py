@@ -203,7 +203,8 @@ class FlatCam:
         if not min(radius, load) > 0.0:
             raise InputError(
                 f"at {math.degrees(angle):.3g} degrees the cam has R = {radius:.3g} m under "
-                f"{load:.3g} N: both must be positive"
+                f"{load:.3g} N: both must be positive; a smaller lift or a wider half_angle helps, "
+                f"and for R a base_radius above {1e3 * self._least_base:.3g} mm"
             )
         return {
             "radius": radius,
@@ -211,6 +212,13 @@ class FlatCam:
             "sliding_speed": self.speed * (self.base_radius + lift),
             "load_per_length": load / self.width,
         }
+
+    @property
+    def _least_base(self) -> float:
+        """Return the base radius below which the cam is hollow at some angle [m]."""
+        square = np.linspace(0.0, 1.0, 201)
+        bend = 6.0 * (1.0 - square) * (1.0 - 5.0 * square) / self.half_angle**2
+        return float((self.lift * (bend - (1.0 - square) ** 3)).max())
 
     def tables(self, reach: float, points: int = 121) -> dict[str, dict[str, Any]]:
         """Return the tables ``contact`` and ``transient`` of a case from -reach to reach [rad]."""
