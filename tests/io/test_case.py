@@ -153,6 +153,7 @@ MISTAKES = [
     ("numerics.max_time={}", "numerics.max_time is a number, not a table", "below [numerics]"),
     ("lubricant.viscosity=5", "must be a table such as", '{ law = "roelands", eta_0 = '),
     ("numerics.points=100", "numerics.points = 100", "cannot be coarsened"),
+    ("numerics.error=5", "numerics.error = 5", 'at most 50 %; did you mean "5 %"?'),
     ("numerics={error='1 %', points=129}", "numerics.error = 1 %", "both stated"),
     ("numerics.points=[129, 100]", "numerics.points = 100", "cannot be coarsened"),
     ("numerics.points=5", "numerics.points = 5", "a whole number from 17 to 16385"),

@@ -327,9 +327,12 @@ def _limits(mistake: _Mistake) -> str:
     found = {} if field is None else dict(limits_of(field.annotation, field.metadata))
     if found.pop("whole", False) and {"ge", "le"} <= found.keys():
         return f"must be a whole number from {found['ge']} to {found['le']}"
-    write = percentage if found.pop("is_share", False) else "{:g}".format
+    is_share, value = found.pop("is_share", False), mistake.value
+    write = percentage if is_share else "{:g}".format
     words = [f"{text} {write(found[name])}" for name, text in COMPARISONS.items() if name in found]
-    return f"must be {' and '.join(words)}" if words else ""
+    meant = is_share and isinstance(value, int | float) and 1.0 <= value <= 100.0
+    better = f'; did you mean "{value:g} %"?' if meant else ""
+    return f"must be {' and '.join(words)}{better}" if words else ""
 
 
 _OUTSIDE = (

@@ -162,7 +162,7 @@ def check_temperatures(problem: PointContact) -> None:
             raise ValueError(
                 f"{key} = {value:g} K is not a temperature of a lubricated contact "
                 f"({COLDEST_TEMPERATURE:g} to {HOTTEST_TEMPERATURE:g} K): "
-                'a bare number is in kelvin, write "40 degC"'
+                'a bare number is in kelvin, "40 degC" is not'
             )
     if oil.temperature is not None and heated is not None and oil.temperature != heated:
         raise ValueError(
