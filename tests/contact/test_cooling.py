@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import special
 
-from tehl.api.problem import case_from_tables
+from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.base.errors import InputError
 from tehl.contact.cooling import Ball, Disc, HalfSpace
 from tehl.contact.materials import material
@@ -34,6 +34,30 @@ def test_a_half_space_is_the_sum_of_all_ring_sources_before(radius, speed, width
     # the formula leaves out squares of the spread of a turn over the radius
     assert body.resistance(STEEL, speed, width) == pytest.approx(exact, rel=3e-4)
     assert body.resistance(STEEL, -speed, width) == body.resistance(STEEL, speed, width)
+
+
+@pytest.mark.parametrize(("radius", "speed", "half"), [(0.02, 5.0, 5e-3), (0.03, 1.0, 4e-3)])
+def test_the_even_heat_of_a_roller_is_that_of_a_strip(radius, speed, half):
+    """As a Hertz contact of the same width it would be 5 % warmer."""
+    turn, kappa = 2 * math.pi * radius / speed, STEEL.diffusivity
+    time = turn * np.arange(1, 300_001.0)
+    ring = special.ive(0, radius**2 / (2 * kappa * time)) / (4 * np.pi * kappa * time) ** 1.5
+    u = 2 * half / np.sqrt(4 * kappa * time)  # the mean of the Gauss function over both widths
+    ring *= np.sqrt(np.pi) * special.erf(u) / u + np.expm1(-(u**2)) / u**2
+    terms = 2 * turn * kappa / K * ring
+    exact = terms.sum() + 2 * terms[-1] * time.size
+    surface = {"material": "steel", "radius": radius, "cooling": {"body": "half-space"}}
+    surface["cooling"]["track_radius"] = radius
+    tables = ball_tables(lubricant="mineral-oil", thermal={}) | {"surface_1": surface}
+    tables["contact"] = {
+        "type": "roller",
+        "length": 2 * half,
+        "load": 1e3,
+        "entrainment_speed": speed,
+    }
+    tables["surface_2"] = {"material": "steel", "radius": "inf"}
+    found = ContactProblem.model_validate(tables).resistances[0]
+    assert found == pytest.approx(exact, rel=0.01)
 
 
 @pytest.mark.parametrize(("transfer", "error"), [(50.0, 5e-4), (500.0, 0.01), (1300.0, 0.03)])

@@ -9,7 +9,8 @@ by all earlier passes. Each is an instantaneous source along the track [1]_, and
           S(e) = \lim_{N \to \infty} \Bigl( \sum_{n=1}^{N} \frac{1}{\sqrt{n (n + e)}} - \ln N
           \Bigr),
 
-with the width of the track by the variance a_y^2 / 5 of the heat of a Hertz contact over y, and
+with the width of the track by the variance of its heat over y, a_y^2 / 5 of a Hertz contact and
+a_y^2 / 3 of the even heat of a roller, and
 
 ==========  ==================================  =============================================
 half-space  :math:`c L^2 = 16 r^2`              :math:`R_\mathrm{body} = 0`
@@ -49,6 +50,8 @@ else:
 
 SUMMED_PASSES = 100
 """Terms of the sum S; the rest is an integral, with an error below 1e-5."""
+OF_ELLIPSE, OF_ROLLER = 1.0 / 5.0, 1.0 / 3.0
+"""Variance of the heat across the track over a_y^2, a_y half of the length of a roller."""
 LARGEST_BIOT = 0.3
 """h L / k up to which discs and balls hold."""
 
@@ -70,7 +73,9 @@ class _Body(Table):
     def _shape(self, conductivity: float) -> _Shape:
         raise NotImplementedError
 
-    def resistance(self, solid: Solid, speed: float, width: float) -> float:
+    def resistance(
+        self, solid: Solid, speed: float, width: float, variance: float = OF_ELLIPSE
+    ) -> float:
         """Return the rise of the track over the oil per heat that enters [K/W].
 
         Parameters
@@ -79,6 +84,8 @@ class _Body(Table):
             With its thermal properties.
         speed, width : float
             Of its surface [m/s], and half-width a_y of the contact [m].
+        variance : float
+            Of its heat over y, over a_y^2 [-].
 
         Raises
         ------
@@ -103,7 +110,7 @@ class _Body(Table):
         logarithms = (
             math.log(shape.depth_squared / spread)
             + np.euler_gamma
-            + _passes(width**2 / (5.0 * spread))
+            + _passes(variance * width**2 / spread)
         )
         if not logarithms > 0.0:
             raise ValueError(
@@ -188,7 +195,7 @@ Cooling = Annotated[HalfSpace | Disc | Ball, Field(discriminator="body")]
 
 
 def _passes(wide: float) -> float:
-    """Return S of a track with a_y^2 / 5 over kappa P [-]."""
+    """Return S of a track by the variance of its heat over kappa P [-]."""
     wide = max(wide, 1e-12)
     terms = [1.0 / math.sqrt(n * (n + wide)) for n in range(1, SUMMED_PASSES + 1)]
     rest = math.log(4.0 / wide) - 2.0 * math.asinh(math.sqrt(SUMMED_PASSES / wide))

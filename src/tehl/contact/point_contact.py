@@ -8,6 +8,7 @@ from pydantic import AfterValidator
 from tehl.base.table import Table
 from tehl.contact.bodies import Motion, Radii, reduced_radius
 from tehl.contact.boundary_contact import ContactFilm
+from tehl.contact.cooling import OF_ELLIPSE, OF_ROLLER
 from tehl.contact.dynamics import Dynamics
 from tehl.contact.heat import HOT_LOADING, FilmEnergy, Thermal, rubbing_parts
 from tehl.contact.hertz import HertzContact
@@ -158,16 +159,20 @@ class LubricatedPair(Table):
 
         Raises ValueError if the estimate of a rotating body does not hold.
         """
-        motion = self.motion
-        first = self._resistance("surface_1", motion.speed_1)
-        return first, self._resistance("surface_2", motion.speed_2)
+        speeds = (math.hypot(*self.motion.velocity_of(number)) for number in (1, 2))
+        first, second = (
+            self._resistance(f"surface_{number}", speed) for number, speed in enumerate(speeds, 1)
+        )
+        return first, second
 
     def _resistance(self, key: str, speed: float) -> float | None:
         surface: Surface = getattr(self, key)
         if surface.cooling is None:
             return surface.thermal_resistance
         try:
-            return surface.cooling.resistance(surface.material, speed, self.hertz.half_width_y)
+            variance = OF_ROLLER if self.shape.as_line else OF_ELLIPSE
+            width = self.hertz.half_width_y
+            return surface.cooling.resistance(surface.material, speed, width, variance)
         except ValueError as error:
             raise ValueError(f"{key}.cooling {error}; or state {key}.thermal_resistance") from None
 
