@@ -57,7 +57,11 @@ def test_a_film_that_has_changed_slowly_is_the_steady_one(motion, course):
         assert wanted != pytest.approx(getattr(slow, name)[0], rel=5e-3)
     for name in ("traction", "traction_across", "drilling_moment"):
         wanted = getattr(there, name)[0]
-        assert getattr(slow, name)[-1] == pytest.approx(wanted, rel=1e-6 if part < 1e-6 else 1e-2)
+        close = {
+            "rel": 1e-6 if part < 1e-6 else 1e-2,
+            "abs": 1e-7,
+        }  # surfaces that spin alike: 4e-7
+        assert getattr(slow, name)[-1] == pytest.approx(wanted, **close)
 
 
 def test_a_film_whose_motion_spins_stays_as_it_is():
