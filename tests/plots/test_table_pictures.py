@@ -146,6 +146,27 @@ def test_measured_points_are_converted_to_the_units_of_the_picture(table, tmp_pa
     assert figure.axes[0].get_legend_handles_labels()[1][-2:] == ["lab", "b"]
 
 
+def test_temperatures_are_in_degrees_celsius_and_rises_in_kelvin(table, tmp_path):
+    table.insert(0, "lubricant.temperature", [313.15, 313.15, 313.15, 353.15, 353.15, 353.15])
+    table["temperature.film_rise_max_k"] = 20.0
+    table.attrs["units"] = UNITS | {
+        "lubricant.temperature": "K",
+        "temperature.film_rise_max_k": "K",
+    }
+    assert numbers(table, "film_rise_max_k").unit == "K"
+    assert list(numbers(table, "lubricant.temperature").values[::5]) == pytest.approx([40.0, 80.0])
+    figure = curves(table, "load", "h_min_m", "lubricant.temperature")
+    words = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    assert words == ["temperature = 40 °C", "temperature = 80 °C"]
+    path = tmp_path / "lab.csv"
+    path.write_text("load [kN],temperature [degC],error [degC]\n0.02,50,2\n")
+    figure = curves(table, "load", "lubricant.temperature")
+    overlay(figure, table, "load", "lubricant.temperature", path=path)
+    assert drawn(figure)[-1] == ([20.0], pytest.approx([50.0]))
+    bars = figure.axes[0].containers[-1].lines[2][0].get_segments()
+    assert np.ptp(bars[0][:, 1]) == pytest.approx(4.0)
+
+
 def test_measured_points_of_a_spreadsheet_may_have_decimal_commas(table, tmp_path):
     path = tmp_path / "lab.csv"
     path.write_text("load [kN];film [um];error [nm]\n0,02;0,021;1\n0,04;0,04;\n", encoding="utf-16")

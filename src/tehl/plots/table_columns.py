@@ -9,6 +9,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
+from tehl.result.quantity import UNITS
 from tehl.result.registry import in_summary, shown_in
 
 if TYPE_CHECKING:
@@ -46,6 +47,12 @@ class Column:
     unit: str
     si: str
     """Unit as shown, and in SI; ``"1"`` where there is none."""
+    offset: float = 0.0
+    """Added after the factor: temperatures are shown in degrees Celsius, rises in kelvin."""
+
+    def shown(self, values: Array) -> Array:
+        """Return values in SI in the unit that is shown."""
+        return values * self.factor + self.offset
 
     @property
     def title(self) -> str:
@@ -111,8 +118,17 @@ def numbers(table: "pd.DataFrame", name: str) -> Column:
     largest = np.abs(values[np.isfinite(values)]).max(initial=0.0)
     suitable = (one[1:] for one in _SUITABLE.get(si, ()) if largest < one[0])
     factor, unit = next(suitable, (1.0, si))
-    factor = -factor if name.startswith("-") else factor
-    return Column(name=full, values=values * factor, factor=factor, unit=unit, si=si)
+    factor, offset = -factor if name.startswith("-") else factor, 0.0
+    if si == "K" and "rise" not in full and not name.startswith("-"):
+        unit, offset = "°C", UNITS["°C"][1]
+    return Column(
+        name=full,
+        values=values * factor + offset,
+        factor=factor,
+        unit=unit,
+        si=si,
+        offset=offset,
+    )
 
 
 def certified(rows: "pd.DataFrame", column: Column) -> tuple[Column, Array | None]:
@@ -142,7 +158,7 @@ def certified(rows: "pd.DataFrame", column: Column) -> tuple[Column, Array | Non
         rows[f"{name}.{part}"].to_numpy(np.float64, na_value=np.nan)
         for part in ("value", "uncertainty")
     )
-    values = np.where(np.isfinite(known), known * column.factor, column.values)
+    values = np.where(np.isfinite(known), column.shown(known), column.values)
     fallback = np.zeros(len(rows)) if estimated is None else estimated
     bars = np.where(np.isfinite(bars), bars * abs(column.factor), fallback)
     return replace(column, values=values), bars

@@ -1,5 +1,6 @@
 """Curves over a column of a table, with error bars where they are known."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -140,9 +141,9 @@ def _chosen(
         if isinstance(value, str):
             parts.append(value)
             continue
-        unit = rows.attrs.get("units", {}).get(full, "1")
-        short = full.rpartition(".")[2].replace("_", " ")
-        parts.append(f"{short} = {value:.4g}" + ("" if unit == "1" else f" {unit}"))
+        column, short = numbers(rows, full), full.rpartition(".")[2].replace("_", " ")
+        unit = "" if column.unit == "1" else f" {column.unit}"
+        parts.append(f"{short} = {column.shown(value):.4g}{unit}")
     return chosen, ", ".join(parts) or None
 
 
@@ -176,7 +177,8 @@ def overlay(picture: Figure, table: "pd.DataFrame", x: str, y: str, *, path: Pat
         _as_shown(points, *pair, path) for pair in zip(names, columns, strict=False)
     )
     bars = [n for n in names[2:] if n.split("[")[0].strip() == "error"]
-    errors = _as_shown(points, bars[0], columns[1], path) if bars else None
+    difference = replace(columns[1], offset=0.0)
+    errors = _as_shown(points, bars[0], difference, path) if bars else None
     series = points["name"].astype(str) if "name" in names else np.full(len(points), "measured")
     axes = picture.axes[0]
     for number, name in enumerate(dict.fromkeys(series)):
@@ -204,15 +206,16 @@ def _as_shown(points: "pd.DataFrame", name: str, column: Column, path: Path) -> 
     except ValueError:
         raise InputError(f"{path}: the column {name} does not hold numbers") from None
     _, bracket, rest = name.partition("[")
-    factor = 1.0
+    factor, zero = 1.0, 0.0
     if bracket:
         si = "-" if column.si == "1" else column.si
         quantity = Quantity(name=f"the unit of {column.name}", unit=si, example=si, sign="any")
         try:
-            factor = quantity.parse(f"1 {rest.rstrip('] ')}")
+            zero, one = (quantity.parse(f"{one} {rest.rstrip('] ')}") for one in (0, 1))
         except ValueError as error:
             raise InputError(f"{path}: the column {name} {error}") from None
-    return values * factor * abs(column.factor)
+        factor, zero = one - zero, zero if column.offset else 0.0  # differences have no zero
+    return (values * factor + zero) * abs(column.factor) + column.offset
 
 
 def _legend(axes: Axes) -> None:
