@@ -1,6 +1,7 @@
 """What follows from a film where surfaces slide across it, spin, or meet along crowded lines."""
 
 import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from tehl import solve, solve_transient
 from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
+from tehl.cli.text import as_text
 from tehl.contact.options import Options
 from tehl.contact.shape import Ellipse
 from tehl.post.micro_film import roughness_effect, smooth_reference
@@ -17,6 +19,7 @@ from tehl.post.stress.loads import loads_on, on_even_lines, rubbing
 from tehl.post.summit_spots import spots
 from tehl.post.traction import cell_widths
 from tehl.post.waves import passing_wave
+from tehl.report.page import report_text
 from tehl.result.derived import friction_error, power_error
 
 EYRING = {"law": "eyring", "stress": 5e6}
@@ -197,3 +200,12 @@ def test_bars_of_both_directions_count_by_their_parts():
     }
     assert power_error(unknown) is None
     assert power_error(unknown | {"errors.traction_mid_film": 0.02}) == 0.03
+
+
+def test_a_minimum_film_without_limit_has_no_lambda():
+    film = solve(case(contact=ball(), surface_1={"rms_roughness": 1e-7}), Options(points=65))
+    assert film.roughness.lambda_minimum < film.roughness.lambda_central
+    film = film.but(errors=replace(film.errors, minimum_has_limit=False))
+    assert film.roughness.lambda_minimum is None
+    assert "by the minimum film" not in as_text(film)
+    assert "open" in report_text(film)

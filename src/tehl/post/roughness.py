@@ -47,8 +47,8 @@ class RoughFilm:
     lambda_central: float
     """Central film over ``composite`` [-]; between rough surfaces the central film is the mean
     where |X|, |Y| < 0.4, so that no single asperity decides."""
-    lambda_minimum: float
-    """Minimum film over ``composite`` [-]."""
+    lambda_minimum: float | None
+    """Minimum film over ``composite`` [-]; None at an end of a roller where it has no limit."""
     lambda_by_formula: float
     """Central film of the smooth contact by formula over ``composite`` [-]."""
     quantiles: tuple[tuple[float, float], ...]
@@ -114,6 +114,7 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
     formula = likely_film(result.scaled_problem).central_m
     central = result.film.central if result.heights is None else middle_film(result)
     scaled, (row, column) = result.scaled, result.scaled.centre
+    has_limit = result.errors is None or result.errors.minimum_has_limit
     shape = result.groups.shape
     ripple_film, ripple_pressure = ripples(scaled.x, scaled.y, scaled.film, scaled.pressure, shape)
     return RoughFilm(
@@ -122,7 +123,7 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
         resolution=result.resolution,
         composite=composite,
         lambda_central=central / composite,
-        lambda_minimum=result.film.minimum / composite,
+        lambda_minimum=result.film.minimum / composite if has_limit else None,
         lambda_by_formula=formula / composite,
         quantiles=tuple(zip(QUANTILES, films, strict=True)),
         below_composite=area_below(result, composite),
