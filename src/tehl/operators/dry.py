@@ -202,20 +202,9 @@ def presses_as_edge(grid: Grid, groups: Groups) -> bool:
     grid, groups : Grid, Groups
         As in `at_loaded_ends`.
     """
-    return end_pressure(grid, groups) > EDGE
-
-
-def end_pressure(grid: Grid, groups: Groups) -> float:
-    """Return the largest dry pressure at the ends of a roller, on short cells there [-].
-
-    Parameters
-    ----------
-    grid, groups : Grid, Groups
-        As in `at_loaded_ends`.
-    """
     searched = _searched(grid, groups)
     pressure = searched.unfold(_dry_roller(searched, groups)[0])
-    return float(max(pressure[0].max(), pressure[-1].max()))
+    return float(max(pressure[0].max(), pressure[-1].max())) > EDGE
 
 
 @lru_cache(maxsize=8)

@@ -106,7 +106,7 @@ def questions(
         *untypical(scaled),
         *_about_groove(scaled.problem),
         *_about_limits(scaled.problem),
-        *about_ends(scaled, options),
+        *about_ends(scaled),
         *about_places(scaled),
         *_about_film(scaled),
         *_about_sliding(scaled, heat),
