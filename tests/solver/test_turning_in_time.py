@@ -226,3 +226,17 @@ def test_the_traction_across_loads_the_bodies_along_y():
     turned = loads[1].traction_y - loads[0].traction_y
     wanted = loads[0].traction_x - loads[1].traction_x
     np.testing.assert_allclose(turned, wanted, atol=2e-3 * np.abs(wanted).max())
+
+
+def test_a_hot_line_that_slides_across_is_carried_along_in_time():
+    """Its motion changes, so that the surfaces carry their heat along paths: by a thousandth."""
+    given = case("line", "heat", contact_table={"slide_roll_ratio": 0.5} | ACROSS)
+    steady = solve(given, Options(points=(129, 1)))
+    course = [[0.0, 1.0], [2e-4, 1.001]]
+    moving = given.model_dump(exclude_none=True)
+    moving["transient"] = {"entrainment_speed": course, "duration": 2e-4}
+    found = solve_transient(ContactProblem.model_validate(moving), Options(points=(129, 1)))
+    rise, film = found.history.temperature_rise, found.history.film_central
+    assert rise[0] > 1.0
+    assert rise[-1] == pytest.approx(rise[0], rel=5e-3)
+    assert film[-1] == pytest.approx(steady.film.central, rel=2e-3)

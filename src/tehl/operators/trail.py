@@ -177,6 +177,7 @@ class TurningTrail:
     def __init__(
         self, flux: Array, carrier: Carrier, time_step: float, way: Way, length: tuple[int, int]
     ) -> None:
+        flux = flux[:, : carrier.y.size]  # of a line one of the rows that fill its block
         self.carrier = Carrier(carrier.x, carrier.y[: flux.shape[1]], carrier.period)
         weights = history(sum(length), time_step)
         self.near, self.next_ = weights.near, weights.next_
@@ -215,7 +216,7 @@ class TurningTrail:
 
     def update(self, flux: Array) -> Array:
         """Return the rise of each node by what it took up before this step, (nx, ny)."""
-        self.present = flux
+        self.present = flux[:, : self.carrier.y.size]
         return self.past
 
     def advance(self) -> None:
