@@ -29,10 +29,17 @@ half of the usual error of a film."""
 BYTES_IN_STEP = 96
 """Memory of a step per node along x: pressure, film and two heights on the line y = 0, and copies
 of them that are written (3585 nodes: 1.2 GB after 3,800 steps)."""
+OF_LINE, OF_COUPLED_LINE = (0.004, 4e-6), (0.004, 1.6e-5)
+"""CPU time of a time step of a line contact, and per node, on one core of a usual machine [s]: 161
+to 3585 nodes."""
+OF_POINTS, OF_TOUCHING, COUPLED = (0.01, 7.5e-7), (0.08, 1.5e-5), 2.2
+"""The same of other contacts, per node of half the domain: it doubles where no half is its mirror
+image. Touching through a boundary film takes more, and heat or thinning some times as much. Of 14
+runs, six of them of lines, twelve take half to twice that."""
 CYCLES_OF_STRIDE, USUAL_STRIDE = 0.37, 2
 """Part by which a step costs more per mesh width that it passes beyond two, as more cycles follow:
 gears on 1281 and 2049 nodes, heated, and 3585, Newtonian, with a stride of four take 49, 58 and
-31 ms, planned as 47, 60 and 35."""
+31 ms, planned as 43, 64 and 32."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -87,11 +94,13 @@ def transient_plan(
     stride = stride_on(scaled, dx / units.half_width_x, PART_IN_STEP * options.target)
     step, duration = stride * dx / units.speed, duration_of(scaled)
     steps = number_of_steps(scaled, step)
-    # CPU time of a step, and per node of the finest full grid, on one core of a usual machine [s]
-    start, cost = 0.014, 1.0e-5 if problem.is_coupled else 1.7e-6
-    if problem.contact_film is not None:  # Newton's method
-        halves = options.half_domain == "auto" and problem.is_even_in_y
-        start, cost = 0.08, 1.5e-5 * (1 if halves else 2)
+    parts = 1 if options.half_domain == "auto" and problem.is_even_in_y else 2
+    start, per_half = OF_TOUCHING if problem.contact_film is not None else OF_POINTS
+    if problem.is_coupled and problem.contact_film is None:
+        per_half *= COUPLED
+    if problem.contact.is_line and problem.contact_film is None:
+        (start, per_half), parts = (OF_COUPLED_LINE if problem.is_coupled else OF_LINE), 1
+    cost = per_half * parts
     waves = (one.roughness.shortest_wavelengths for one in problem.surfaces)
     first, second = (min(wave[0] / dx, wave[1] / dy) for wave in waves)
     moments = moments_of(problem, duration)
