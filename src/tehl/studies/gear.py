@@ -221,13 +221,19 @@ class FlatCam:
         return float((self.lift * (bend - (1.0 - square) ** 3)).max())
 
     def tables(self, reach: float, points: int = 121) -> dict[str, dict[str, Any]]:
-        """Return the tables ``contact`` and ``transient`` of a case from -reach to reach [rad]."""
+        """Return the tables ``contact`` and ``transient`` of a case from -reach to reach [rad].
+
+        The contact is that of the largest Hertz pressure with a fifth of the largest speed, or
+        more, along x.
+        """
         angles = np.linspace(-reach, reach, points)
         rows = [self.at(float(angle)) for angle in angles]
-        time, start = (angles + reach) / self.speed, rows[0]
-        speed = start["entrainment_speed"]
-        units = {"entrainment_speed": speed, "sliding_speed": speed, "radius": start["radius"]}
-        units["load_per_length"] = start["load_per_length"]
+        least = 0.2 * max(abs(row["entrainment_speed"]) for row in rows)
+        forth = [row for row in rows if row["entrainment_speed"] >= least] or rows
+        here = max(forth, key=lambda row: row["load_per_length"] / row["radius"])
+        time, speed = (angles + reach) / self.speed, here["entrainment_speed"]
+        units = {"entrainment_speed": speed, "sliding_speed": speed, "radius": here["radius"]}
+        units["load_per_length"] = here["load_per_length"]
         names = {"load_per_length": "load"}
         courses: dict[str, Any] = {
             names.get(key, key): [
@@ -235,7 +241,7 @@ class FlatCam:
             ]
             for key, unit in units.items()
         }
-        contact = {key: start[key] for key in ("radius", "entrainment_speed", "load_per_length")}
+        contact = {key: here[key] for key in ("radius", "entrainment_speed", "load_per_length")}
         return {
             "contact": {"type": "line"} | contact,
             "transient": {"duration": float(time[-1])} | courses,
