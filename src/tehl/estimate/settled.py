@@ -32,7 +32,7 @@ def settled(problem: ContactProblem, options: Options) -> Options:
         raise InputError('numerics.points: one row of nodes is for contact.type = "line" alone')
     if options.extrapolate is not None:
         return options
-    found = options.points == "auto" and _is_smooth(problem)
+    found = options.points == "auto" and is_smooth(problem)
     return options.model_copy(update={"extrapolate": found})
 
 
@@ -118,7 +118,7 @@ def _of_one_row(problem: ContactProblem, options: Options) -> Options:
     decided = problem.transient is not None and points == "auto"
     if is_free and not (_is_uneven(problem) or decided):
         changes["wedge_order"] = 3
-    if options.error is None and points == "auto" and _is_smooth(problem):
+    if options.error is None and points == "auto" and is_smooth(problem):
         changes["error"] = HEATED_LINE_ERROR if problem.is_coupled else LINE_ERROR
     if isinstance(points, int):
         changes["points"] = (points, 1)
@@ -141,6 +141,6 @@ def _is_uneven(problem: ContactProblem) -> bool:
     return problem.is_rough or problem.contact_film is not None
 
 
-def _is_smooth(problem: ContactProblem) -> bool:
+def is_smooth(problem: ContactProblem) -> bool:
     """Whether a steady film is smooth on the mesh."""
     return not _is_uneven(problem) and problem.transient is None

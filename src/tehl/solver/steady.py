@@ -16,7 +16,7 @@ from tehl.estimate.film_formulas import check_film
 from tehl.estimate.memory import check_memory
 from tehl.estimate.nodes import finest_grid, planned
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.settled import settled
+from tehl.estimate.settled import is_smooth, settled
 from tehl.estimate.starvation import FORMULA_ERROR, Flooded, check_supply, part_passed_on
 from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import check_ends, heights_of, units_of
@@ -254,7 +254,10 @@ def flooded_film(
     changes = dict.fromkeys(("supply", "cavitation", "transient", "dynamics"))
     monitor.message("the fully flooded contact")
     same = problem.model_copy(update=changes)
-    options = options.model_copy(update={"domain": "auto", "edges": "auto"})
+    own: dict[str, object] = {"domain": "auto", "edges": "auto"}
+    if not is_smooth(problem):  # this one is, and may be extrapolated
+        own["extrapolate"] = None
+    options = options.model_copy(update=own)
     attempt, result = try_strategies(
         same,
         options,
