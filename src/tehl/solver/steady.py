@@ -46,6 +46,9 @@ from tehl.solver.physics.dynamics import with_dynamics
 
 WITHOUT_ERROR = (NO_MEMORY, "error_not_reached", *TOO_COARSE)
 """Causes of failure for which a larger error may converge."""
+OF_RUN = 2.5
+"""How many times as much of its error the flooded film of a run counts as passed on: it is one
+solve, and a run on half the mesh width takes eight times as long."""
 
 
 def solve(
@@ -252,6 +255,7 @@ def flooded_film(
     if problem.supply is None:
         return None
     changes = dict.fromkeys(("supply", "cavitation", "transient", "dynamics"))
+    passed_on = part_passed_on(problem.supply) * (1.0 if problem.transient is None else OF_RUN)
     monitor.message("the fully flooded contact")
     same = problem.model_copy(update=changes)
     own: dict[str, object] = {"domain": "auto", "edges": "auto"}
@@ -263,7 +267,7 @@ def flooded_film(
         options,
         monitor=SILENT,
         rough=False,
-        passed_on=part_passed_on(problem.supply),
+        passed_on=passed_on,
         until=until,
     )
     errors = result.errors

@@ -297,10 +297,11 @@ class Goal:
     def _between(self, level: Level, errors: ErrorEstimate | None) -> tuple[int, int] | None:
         """Return nodes (nx, ny) with a mesh on which bars of second order meet the goal.
 
-        If they do on none, and half the mesh width is out of reach, those with the finest.
+        Of steady films and starts, as each step of a run takes the nodes of its start. If they do
+        on none, and half the mesh width is out of reach, those with the finest.
         """
-        grid = level.grid
-        if errors is None or not self.options.extrapolate:
+        grid, in_time = level.grid, self.scaled.problem.transient is not None
+        if errors is None or not (self.options.extrapolate or (in_time and self.may_end_early)):
             return None
         scarce = self.scaled.problem.supply is not None
         # on grids of another family the sides of wide contacts with scarce oil come to rest later
