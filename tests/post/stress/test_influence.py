@@ -9,8 +9,13 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
+from tehl import solve
+from tehl.api.problem import ContactProblem
+from tehl.contact.options import Options
+from tehl.contact.stress import Stress
+from tehl.post.stress.below import stress_below
 from tehl.post.stress.influence import HalfSpace
-from tehl.post.stress.measures import largest_shear, von_mises
+from tehl.post.stress.measures import largest_shear, von_mises, worst
 from tehl.post.stress.numbers import peak
 from tests.post.stress.periodic import periodic_stresses
 
@@ -228,3 +233,58 @@ def test_every_depth_carries_the_load(depth):
     normal = float((loads[0] * inside).sum())
     found = space.stresses(space.spectra_of(loads[0]), space.influence(depth), NU)
     assert -float(found[2].sum()) == pytest.approx(normal, rel=1e-6)
+
+
+def test_the_cycle_of_a_material_begins_without_load():
+    """A normal stress of one to two, which is nowhere zero, has half of its largest one as range.
+
+    Its middle is one, so that the amplitude is one and its shear a half; a residual stress that is
+    there without load too takes part in the tension alone.
+    """
+    stress = np.zeros((6, 3, 5))
+    stress[2] = -np.linspace(1.0, 2.0, 5)
+    settings = Stress(dang_van_slope=0.0)
+    assert worst(stress, settings, 0.0, np.ones(3)).dang_van == pytest.approx(0.5)
+    stress[:2] -= 0.3
+    sloped = Stress(dang_van_slope=0.3)
+    found = worst(stress, sloped, 0.0, np.ones(3), residual=-0.3)
+    # without load: half of one, and a tension of -0.6 / 3
+    assert found.dang_van == pytest.approx(0.5 - 0.3 * 0.2)
+
+
+def test_the_dang_van_stress_of_a_dry_line_is_that_of_its_whole_way():
+    """By the integral of Johnson (1985), 2.9, over 12 half-widths on each side: 0.236 p_h."""
+    line = ContactProblem(
+        contact={"type": "line", "load_per_length": 6e5, "entrainment_speed": 2.0},
+        surface_1={"material": "steel", "radius": 0.01},
+        surface_2={"material": "steel", "radius": "inf"},
+        lubricant={"name": "mineral-oil"},
+    )
+    film = solve(line, Options(points=(257, 1)))
+    found = stress_below(film, Stress())
+    wide = HertzLine(film.problem.hertz.pressure, Stress().dang_van_slope).dang_van()
+    assert found.dang_van_dry[0].max() == pytest.approx(wide, rel=0.01)
+
+
+class HertzLine:
+    """Plane-strain stresses below a dry line contact of half-width one, of strips."""
+
+    def __init__(self, pressure: float, slope: float) -> None:
+        self.pressure, self.slope = pressure, slope
+
+    def dang_van(self) -> float:
+        """Return the largest stress of Dang Van of a way of 24 half-widths."""
+        s = np.cos(np.pi * (np.arange(400) + 0.5) / 400)  # p ds = sin^2 dt
+        weight = np.sin(np.pi * (np.arange(400) + 0.5) / 400) ** 2 * np.pi / 400 * self.pressure
+        x = np.linspace(-12.0, 12.0, 2401)
+        largest = 0.0
+        for z in np.linspace(0.3, 1.5, 25):
+            d = x[:, None] - s
+            kernel = -2.0 / np.pi * z / (d**2 + z**2) ** 2 * weight
+            xx, zz, zx = ((kernel * one).sum(axis=1) for one in (d**2, z**2 + 0.0 * d, d * z))
+            yy = 0.3 * (xx + zz)
+            stress = np.stack([xx, yy, zz, 0.0 * xx, 0.0 * xx, zx])
+            middle = 0.5 * (stress.min(axis=1) + stress.max(axis=1))
+            shear = largest_shear(stress - middle[:, None])
+            largest = max(largest, float((shear + self.slope / 3.0 * (xx + yy + zz)).max()))
+        return largest

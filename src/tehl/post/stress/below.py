@@ -174,7 +174,8 @@ class March:
             weights = space.weights(steps)
             for number, body in enumerate(bodies):
                 stress = self._stress(body, space, influence, grid, k)
-                one = worst(stress, self.settings, limit, weights)
+                rest = float(self._residual[k]) / self.scale
+                one = worst(stress, self.settings, limit, weights, rest)
                 found[number, k] = one._replace(row=rows.start + rows.step * one.row)
                 if number < planes:
                     along[number, :, k] = stress[:, (grid.row - rows.start) // rows.step]

@@ -67,8 +67,12 @@ class Worst(NamedTuple):
     """Where the largest shear is."""
 
 
-def worst(stress: Array, settings: Stress, limit: float, weights: Array) -> Worst:
+def worst(
+    stress: Array, settings: Stress, limit: float, weights: Array, residual: float = 0.0
+) -> Worst:
     """Return what is largest at one depth, where each line along x is a cycle of the material.
+
+    It begins and ends without load, farther away than the stresses are computed.
 
     Parameters
     ----------
@@ -80,6 +84,8 @@ def worst(stress: Array, settings: Stress, limit: float, weights: Array) -> Wors
         Fatigue limit in the unit of the stress.
     weights : (ny,) array
         Of the rows in the sum over y.
+    residual : float
+        Stress along x and y of the material without load.
     """
     second = _second_invariant(stress)
     most = float(second.max())
@@ -89,10 +95,13 @@ def worst(stress: Array, settings: Stress, limit: float, weights: Array) -> Wors
     near = near[shear >= (1.0 - UNSURE) * shear.max()]
     shear = largest_shear(every[:, near])
     row, column = np.unravel_index(near[int(np.argmax(shear))], second.shape)
-    low, high = stress.min(axis=-1, keepdims=True), stress.max(axis=-1, keepdims=True)
+    without = np.zeros((*stress.shape[:-1], 1), stress.dtype)
+    without[:2] = residual
+    cycle = np.concatenate([stress, without], axis=-1)
+    low, high = cycle.min(axis=-1, keepdims=True), cycle.max(axis=-1, keepdims=True)
     orthogonal = 0.5 * (high - low)[5, :, 0]
-    tension = settings.dang_van_slope / 3.0 * stress[:3].sum(axis=0)
-    dang_van = _largest_along(stress - 0.5 * (low + high), tension)
+    tension = settings.dang_van_slope / 3.0 * cycle[:3].sum(axis=0)
+    dang_van = _largest_along(cycle - 0.5 * (low + high), tension)
     damaging = orthogonal if settings.criterion == "orthogonal-shear" else dang_van
     return Worst(
         shear=float(shear.max()),
