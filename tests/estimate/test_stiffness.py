@@ -53,9 +53,17 @@ def test_frequencies_and_results_of_a_problem_are_in_si():
         ({}, [float("nan")], "Omega"),
         ({"load": "0.02 N"}, [0.0], r"M = .* 10 to 562"),
         ({"radius": None, "radius_x": "20 mm", "radius_y": "60 mm"}, [0.0], "circular"),
+        ({"type": "roller", "length": "8 mm"}, [0.0], "circular"),
+        ({"spin_1": "500 rad/s", "spin_2": "500 rad/s"}, [0.0], "without spin"),
     ],
 )
 def test_what_the_table_does_not_have_is_refused_with_its_range(change, frequencies, words):
     contact = {key: one for key, one in (ball_tables()["contact"] | change).items() if one}
     with pytest.raises(InputError, match=words):
         tehl.film_stiffness(tehl.ContactProblem(**ball_tables(contact=contact)), frequencies)
+
+
+def test_a_film_beside_solids_is_not_that_of_the_table():
+    touching = tehl.ContactProblem(**ball_tables(contact_film={"thickness": "20 nm"}))
+    with pytest.raises(InputError, match="of oil alone"):
+        tehl.film_stiffness(touching, [0.0])

@@ -267,3 +267,14 @@ def test_a_patch_whose_contact_does_not_converge_is_refused(monkeypatch):
     monkeypatch.setattr(contact, "MOST_ITERATIONS", 1)
     with pytest.raises(InputError, match="does not converge; a lambda_s removes spikes"):
         patch_curves(1e-4 * random_patch(32), (1e-6, 1e-6))
+
+
+def test_a_contact_of_two_summits_comes_to_rest():
+    """Their gaps are rounding, of which a step has no length."""
+    random = np.random.default_rng(177).normal(size=(48, 48))
+    squares = np.add.outer(np.fft.fftfreq(48) ** 2, np.fft.fftfreq(48) ** 2)
+    z = np.fft.ifft2(np.fft.fft2(random) * np.exp(-18.0 * np.pi**2 * squares)).real
+    z *= 0.15e-6 / z.std()
+    found = patch_curves(z - z.mean(), (1e-6, 1e-6))
+    assert np.isfinite(found.pressure).all()
+    assert (np.diff(found.pressure) < 0.0).all()

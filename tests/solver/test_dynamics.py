@@ -388,6 +388,10 @@ def test_rotor_programs_read_the_table_of_a_bearing():
     assert (found["cxx"] > 0.0).all()
     with pytest.raises(InputError, match="beyond the table"):
         table.coefficients(1000.0)
+    one = {"type": "line", "load_per_length": 5e4, "entrainment_speed": 1.0, "radius": 0.01}
+    line = case_from_tables(ball_tables(contact=one))[0]
+    with pytest.raises(InputError, match='state "roller" with it'):
+        bearing_table((line, line), (angles, loads), [200.0], [100.0], entrainment_radius=0.02)
     whole = table.coefficients()
     assert whole["cyy"].shape == (2, 2)
     np.testing.assert_allclose(whole["cyy"].mean(axis=0), found["cyy"])

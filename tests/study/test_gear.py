@@ -111,3 +111,23 @@ def test_a_whole_turn_of_a_cam_is_planned_on_the_nodes_of_its_thick_film():
     moving, steady = (explain(one, Options(error=0.02)) for one in (run, still))
     assert moving.options.shape < steady.options.shape
     assert moving.time.steps < MOST_TIME_STEPS
+
+
+@pytest.mark.parametrize(
+    ("teeth", "angle", "shift", "words"),
+    [
+        ((60, 80), 14.5, (0.0, 0.0), "contact ratio is 2.23"),
+        ((17, 25), 20.0, (0.5, 0.3), "the contact ratio is 1"),
+    ],
+)
+def test_pairs_of_teeth_share_the_load_by_two_at_most(teeth, angle, shift, words):
+    with pytest.raises(InputError, match=words):
+        SpurGears(
+            module=3e-3,
+            teeth=teeth,
+            width=0.02,
+            torque=100.0,
+            speed=100.0,
+            pressure_angle=math.radians(angle),
+            shift=shift,
+        )

@@ -67,9 +67,12 @@ def film_stiffness(problem: ContactProblem, frequency: Array | Sequence[float]) 
     scaled = ScaledProblem.of(problem)
     radii = problem.radii_of_axes
     circular = abs(radii.y / radii.x - 1.0) <= CIRCULAR
-    if problem.contact.is_line or not circular or problem.supply is not None:
+    others = (problem.supply, problem.asperities, problem.contact_film)
+    plain = problem.motion.spin_1 == 0.0 == problem.motion.spin_2
+    if problem.contact.has_lines or not (circular and plain) or others != (None, None, None):
         raise InputError(
-            "film_stiffness has circular contacts, fully flooded: solve others with [dynamics]"
+            "film_stiffness has circular contacts, fully flooded, of oil alone and without spin: "
+            "solve others with [dynamics]"
         )
     one, groups = scaled.scales, scaled.groups
     time = one.half_width_x / one.speed

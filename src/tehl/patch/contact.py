@@ -24,6 +24,8 @@ from tehl.base.typing import Array
 
 MOST_ITERATIONS = 2000
 """Of a contact; the last change of the pressure is then beyond 1e-7."""
+NO_GAP = 1e-12
+"""Gap that is taken for zero, over the highest summit."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -93,12 +95,14 @@ def pressed(
 
     p = np.full(heights.shape, pressure) if start is None else start * (pressure / start.mean())
     step, before, restart = np.zeros(heights.shape), 1.0, True
+    least = NO_GAP * float(np.abs(heights).max())
     for _ in range(MOST_ITERATIONS):
         gap, touching = deflection(p) - heights, p > 0.0
         gap -= gap[touching].mean()
         size = float((gap[touching] ** 2).sum())
-        if size == 0.0 and not (gap < 0.0).any():  # a single point
-            return DryContact(pressure=p, gap=np.maximum(gap, 0.0))
+        at_rest = size <= least**2 * touching.sum()  # a few points, whose gaps are rounding
+        if at_rest and not (gap < -least).any():
+            return DryContact(pressure=p, gap=np.where(touching, 0.0, np.maximum(gap, 0.0)))
         step = np.where(
             touching, gap + (0.0 if restart or before == 0.0 else size / before) * step, 0.0
         )
@@ -106,7 +110,8 @@ def pressed(
         change = deflection(step)
         change -= change[touching].mean()
         resistance = float((change * step)[touching].sum())
-        factor = float((gap * step)[touching].sum()) / resistance if resistance > 0.0 else 1.0
+        moves = resistance > 0.0 and not at_rest
+        factor = float((gap * step)[touching].sum()) / resistance if moves else 1.0
         after = np.maximum(p - factor * step, 0.0)
         closed = (after == 0.0) & (gap < 0.0)
         restart = bool(closed.any())

@@ -135,6 +135,8 @@ def bearing_table(  # noqa: PLR0913 (a bearing)
     ConvergenceError
         If a film does not converge.
     """
+    if any(one.contact.is_line for one in rings):
+        raise InputError('rings: a contact of type "line" has no length: state "roller" with it')
     omega = np.array(frequencies, float)
     settings = Dynamics(frequencies=tuple((omega / (2.0 * np.pi)).tolist()))
     angles, forces = loads
@@ -160,7 +162,7 @@ def _impedance(
     options: Options | None,
 ) -> Array:
     """Return the impedance of one contact over the frequencies of ``settings`` [N/m]."""
-    others = dict.fromkeys(("hertz_pressure", "moes_load", "moes_speed"))
+    others = dict.fromkeys(("hertz_pressure", "moes_load", "moes_speed", "load_per_length"))
     contact = problem.contact.model_copy(update={"load": load, "entrainment_speed": speed} | others)
     one = problem.model_copy(update={"contact": contact, "dynamics": settings})
     film = solvers.solve(one, options).dynamics

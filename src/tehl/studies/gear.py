@@ -12,6 +12,8 @@ from tehl.base.errors import InputError
 LEAST_SHARE = 1.0 / 3.0
 """Part of the load of a tooth where it comes into mesh or leaves it; it is linear up to two thirds
 where it carries alone."""
+JUMP = 0.02
+"""Way over which it becomes the whole, over the base pitch."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -47,6 +49,11 @@ class SpurGears:
                 f"the teeth leave mesh before the next pair comes: the path of contact has "
                 f"{1e3 * (last - first):.3g} mm, less than the base pitch of "
                 f"{1e3 * self.base_pitch:.3g} mm; check centres and shift"
+            )
+        if not 1.0 + JUMP < (last - first) / self.base_pitch <= 2.0:
+            raise InputError(
+                f"the contact ratio is {(last - first) / self.base_pitch:.3g}: the load is shared "
+                f"by one or two pairs of teeth, with a ratio above {1.0 + JUMP:g} and up to 2"
             )
         if not min(self.radii(first) + self.radii(last)) > 0.0:
             raise InputError(
@@ -126,10 +133,10 @@ class SpurGears:
     def _corners(self) -> list[float]:
         """Places where the share of the load changes its slope, from the pitch point [m].
 
-        It grows to the whole over 2 % of the base pitch.
+        It grows to the whole over `JUMP`.
         """
         (start, end), pitch = self.ends, self.base_pitch
-        alone, jump = (end - pitch, start + pitch), 0.02 * pitch
+        alone, jump = (end - pitch, start + pitch), JUMP * pitch
         return [start, alone[0] - jump, alone[0], alone[1], alone[1] + jump, end]
 
     def share(self, place: float) -> float:

@@ -85,10 +85,10 @@ class BodyNumbers:
     shear_x: float
     shear_y: float
     """Largest shear stress [Pa], its depth and place [m]."""
-    shear_error: float
+    shear_error: float | None
     """Its relative error bar: `DEPTH_BAR`, the change by loads on every second node, and the bar of
     the largest pressure of the film; of a spike that the mesh does not resolve what reaches that
-    depth [-]."""
+    depth [-]. None where the pressure has no limit, at a sharp end of a roller."""
     shear_ratio: float
     """Largest shear stress over that of the dry smooth contact [-]."""
     von_mises: float
@@ -171,7 +171,9 @@ def stress_numbers(result: Solution) -> StressNumbers | None:
     if found is None:
         return None
     errors, bar = result.errors, PressureBar(0.0, math.inf)
-    if errors is not None:
+    if errors is not None and not errors.pressure_has_limit:
+        bar = PressureBar(math.nan, math.inf)
+    elif errors is not None:
         spike = math.inf if errors.spike_resolved else SPIKE_CELLS * (result.x[1] - result.x[0])
         bar = PressureBar(errors.of("pressure_max") or 0.0, spike)
     settings = result.problem.stress or Stress()
@@ -201,6 +203,11 @@ def _missing_heat(result: Solution, bodies: list[int]) -> float:
     return most
 
 
+def _known(bar: float) -> float | None:
+    """Return an error bar, None where it is not known."""
+    return None if math.isnan(bar) else bar
+
+
 def _numbers(
     found: BodyStress, row: int, bar: PressureBar, power: float, settings: Stress
 ) -> BodyNumbers:
@@ -217,7 +224,7 @@ def _numbers(
         shear_depth=shear.depth,
         shear_x=float(found.shear_x[row, shear.place]),
         shear_y=float(found.shear_y[row, shear.place]),
-        shear_error=DEPTH_BAR + abs(coarse.value / shear.value - 1.0) + bar.at(shear.depth),
+        shear_error=_known(DEPTH_BAR + abs(coarse.value / shear.value - 1.0) + bar.at(shear.depth)),
         shear_ratio=shear.value / dry.value,
         von_mises=mises.value,
         von_mises_depth=mises.depth,
@@ -226,7 +233,7 @@ def _numbers(
         dang_van=dang_van.value,
         dang_van_ratio=dang_van.value / dang_van_dry.value if dang_van_dry.value > 0 else None,
         life_ratio=life or None,
-        life_ratio_error=abs(life_coarse / life - 1.0) + power * bar.part
+        life_ratio_error=_known(abs(life_coarse / life - 1.0) + power * bar.part)
         if life and life_coarse
         else None,
         at_shallowest=shear.place == 0,
