@@ -16,7 +16,8 @@ from tehl.contact.stress import Stress
 from tehl.post.stress.below import stress_below
 from tehl.post.stress.influence import HalfSpace
 from tehl.post.stress.measures import largest_shear, von_mises, worst
-from tehl.post.stress.numbers import peak
+from tehl.post.stress.numbers import peak, stress_numbers
+from tehl.post.stress.window import window_of
 from tests.post.stress.periodic import periodic_stresses
 
 REFERENCE = tomllib.loads(
@@ -288,3 +289,22 @@ class HertzLine:
             shear = largest_shear(stress - middle[:, None])
             largest = max(largest, float((shear + self.slope / 3.0 * (xx + yy + zz)).max()))
         return largest
+
+
+def test_bars_hold_the_load_that_is_left_out():
+    """Of a line whose inlet begins far ahead: a thousandth of it, to the power of the life."""
+    line = ContactProblem(
+        contact={"type": "line", "load_per_length": 1e5, "entrainment_speed": 4.0},
+        surface_1={"material": "steel", "radius": 0.01},
+        surface_2={"material": "steel", "radius": "inf"},
+        lubricant={"name": "mineral-oil"},
+        stress={},
+    )
+    film = solve(line, Options(points=(257, 1)))
+    window = window_of(film, film.pressure)
+    left_out = 1.0 - film.pressure[:, window.columns].sum() / film.pressure.sum()
+    assert left_out > 1e-3
+    numbers = stress_numbers(film).worse
+    power = Stress().stress_exponent / Stress().weibull_slope
+    assert numbers.shear_error > left_out
+    assert numbers.life_ratio_error > power * left_out

@@ -9,6 +9,9 @@ from numpy.polynomial import Polynomial
 
 from tehl.base.typing import Array
 from tehl.contact.stress import Stress
+from tehl.post.stress.loads import whole_pressure
+from tehl.post.stress.window import window_of
+from tehl.post.traction import cell_widths
 from tehl.result.fields import BodyStress
 from tehl.result.solution import Solution
 
@@ -86,9 +89,10 @@ class BodyNumbers:
     shear_y: float
     """Largest shear stress [Pa], its depth and place [m]."""
     shear_error: float | None
-    """Its relative error bar: `DEPTH_BAR`, the change by loads on every second node, and the bar of
-    the largest pressure of the film; of a spike that the mesh does not resolve what reaches that
-    depth [-]. None where the pressure has no limit, at a sharp end of a roller."""
+    """Its relative error bar: `DEPTH_BAR`, the part of the load that is left out, the change by
+    loads on every second node, and the bar of the largest pressure of the film; of a spike that the
+    mesh does not resolve what reaches that depth [-]. None where the pressure has no limit, at a
+    sharp end of a roller."""
     shear_ratio: float
     """Largest shear stress over that of the dry smooth contact [-]."""
     von_mises: float
@@ -178,8 +182,11 @@ def stress_numbers(result: Solution) -> StressNumbers | None:
         bar = PressureBar(errors.of("pressure_max") or 0.0, spike)
     settings = result.problem.stress or Stress()
     power = settings.stress_exponent / settings.weibull_slope
+    outside = _outside(result)
     return StressNumbers(
-        bodies=tuple(_numbers(found, row, bar, power, settings) for row in range(found.body.size)),
+        bodies=tuple(
+            _numbers(found, row, bar, (power, outside), settings) for row in range(found.body.size)
+        ),
         shallowest=float(found.depth[0]),
         traction_left_out=bool(found.left_out),
         heat_left_out=settings.thermal and not found.thermal.all(),
@@ -188,6 +195,14 @@ def stress_numbers(result: Solution) -> StressNumbers | None:
             part is not None for part in (result.heights, result.contact, result.asperities)
         ),
     )
+
+
+def _outside(result: Solution) -> float:
+    """Return the part of the load on nodes that are left out of the stresses [-]."""
+    pressure = whole_pressure(result)
+    window = window_of(result, pressure)
+    pressure = cell_widths(result.y)[:, None] * pressure
+    return 1.0 - float(pressure[window.rows, window.columns].sum() / pressure.sum())
 
 
 def _missing_heat(result: Solution, bodies: list[int]) -> float:
@@ -209,8 +224,13 @@ def _known(bar: float) -> float | None:
 
 
 def _numbers(
-    found: BodyStress, row: int, bar: PressureBar, power: float, settings: Stress
+    found: BodyStress, row: int, bar: PressureBar, parts: tuple[float, float], settings: Stress
 ) -> BodyNumbers:
+    """Return the numbers of a body.
+
+    ``parts`` are the power of the stress in the life, and the part of the load that is left out.
+    """
+    power, outside = parts
     shear, dry = (peak(found.depth, one[row]) for one in (found.shear, found.shear_dry))
     coarse = peak(found.depth, found.shear_coarse[row])
     mises, orthogonal, dang_van, dang_van_dry = (
@@ -224,7 +244,9 @@ def _numbers(
         shear_depth=shear.depth,
         shear_x=float(found.shear_x[row, shear.place]),
         shear_y=float(found.shear_y[row, shear.place]),
-        shear_error=_known(DEPTH_BAR + abs(coarse.value / shear.value - 1.0) + bar.at(shear.depth)),
+        shear_error=_known(
+            DEPTH_BAR + outside + abs(coarse.value / shear.value - 1.0) + bar.at(shear.depth)
+        ),
         shear_ratio=shear.value / dry.value,
         von_mises=mises.value,
         von_mises_depth=mises.depth,
@@ -233,7 +255,7 @@ def _numbers(
         dang_van=dang_van.value,
         dang_van_ratio=dang_van.value / dang_van_dry.value if dang_van_dry.value > 0 else None,
         life_ratio=life or None,
-        life_ratio_error=_known(abs(life_coarse / life - 1.0) + power * bar.part)
+        life_ratio_error=_known(abs(life_coarse / life - 1.0) + power * (bar.part + outside))
         if life and life_coarse
         else None,
         at_shallowest=shear.place == 0,
