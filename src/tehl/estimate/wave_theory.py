@@ -11,8 +11,8 @@ isothermal film of constant thickness h and constant properties of Newtonian oil
                    {E' h^3 \kappa^3}
 
 B is the bulk modulus and u_s the velocity of the wave, zero for a standing one. The viscosity in a
-contact is so large that Q is practically infinite unless crests move with the oil, or along
-themselves beside it: ``C/(1 + C)`` of the wave is left in the film, and the pressure carries
+contact is so large that Q is practically infinite, but for crests that move with the oil or along
+themselves: ``C/(1 + C)`` of the wave is left in the film, and the pressure carries
 ``1/(1 + C)`` of what flattens the whole wave.
 
 A wave that passes in pure rolling is flattened by the inlet, less the shorter it is. A fit to
@@ -175,7 +175,7 @@ def drifting_waves(problem: ContactProblem) -> Iterator[tuple[WaveVector, Veloci
 
 
 def _drifts(problem: ContactProblem) -> tuple[Velocity, Velocity]:
-    """Return the velocities of both surfaces at the centre less the mean one; as they stand."""
+    """Return the velocities of both surfaces less the mean one; they stand in a steady case."""
     motion = problem.motion
     still = -motion.entrainment_speed, 0.0
     if problem.transient is None:
