@@ -42,7 +42,7 @@ from tehl.solver.transient.coarser import at_nodes, go_coarser
 from tehl.solver.transient.endings import no_film, step_not_settled, time_over
 from tehl.solver.transient.oil import Lead
 from tehl.solver.transient.snapshot import ANEW, COLUMNS, Record, Snapshot, kept_steps
-from tehl.solver.transient.step import StepEnd, StepError, Stepper
+from tehl.solver.transient.step import LastStep, StepEnd, StepError, Stepper
 
 SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
 """Relaxations of a step, fastest first; and those for heated or shear-thinning films."""
@@ -323,7 +323,8 @@ class Run:
                 "mass_before": self.stepper.oil.before,
                 "mass_steady": self.stepper.oil.steady,
                 "pressure_changes": self.stepper.predictor.past,
-                "rigid_motion": self.stepper.motion,
+                "rigid_motion": self.stepper.last.motion,
+                "approaches": self.stepper.last.approaches,
                 "excess": self.stepper.squeeze.past,
                 "excess_steady": self.stepper.squeeze.steady,
                 "coarsest": self.stepper.solver.hierarchy.coarsest.pack(),
@@ -354,7 +355,7 @@ class Run:
         if oil.follows:
             oil.follow(steady)
         self.stepper.predictor.past = fields.pop("pressure_changes")
-        self.stepper.motion = fields.pop("rigid_motion")
+        self.stepper.last = LastStep(fields.pop("rigid_motion"), fields.pop("approaches"))
         squeeze, excess = self.stepper.squeeze, fields.pop("excess_steady")
         squeeze.past = fields.pop("excess")
         if isinstance(squeeze, Lead):

@@ -14,15 +14,18 @@ are one derivative of m = rho H along the mean motion, second-order backward:
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from tehl.base.typing import Array
+from tehl.contact.moment import Moment
 from tehl.contact.transient import Transient
 from tehl.estimate.schedule import Schedule
+from tehl.operators.opening import Opening, approach, squeezed_by
 from tehl.operators.reynolds import step_stencil
 from tehl.operators.turning import ALONG_X
+from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.fas import Cycle, cycle
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.relaxation import Relaxation
@@ -69,6 +72,15 @@ class StepEnd:
     smoother: str
 
 
+class LastStep(NamedTuple):
+    """What a step leaves to the next one beside its film."""
+
+    motion: Array
+    """Change of the rigid motions."""
+    approaches: Array
+    """`tehl.operators.opening.approach` after it, and before it."""
+
+
 class StepError(ArithmeticError):
     """No relaxation converged; ``cause`` is "diverged" or "stalled"."""
 
@@ -99,7 +111,8 @@ class Stepper:
         order = min(solver.options.order, 2) if touches else solver.options.order
         self.oil = oil_of(level, transient.stride, order, schedule)
         self.predictor = Predictor(level.pressure, transient.stride)
-        self.motion = np.zeros_like(level.rigid)  # change of the rigid motions in the last step
+        approaches = np.full(2, approach(level.separation, level.equations.gap))
+        self.last = LastStep(np.zeros_like(level.rigid), approaches)
         # all levels take the same time step, and so the same weight of rho H
         levels = solver.hierarchy.chain(solver.levels)
         for one in levels:
@@ -148,7 +161,7 @@ class Stepper:
         self.solver.hierarchy.coarsest.begin_step()
         history, start = self.oil.brought(number), level.state()
         self._turn_means(moment.speed)
-        equations = self.equations.at(moment, self.solver.hierarchy.scaled)
+        equations = self._opening(self.equations.at(moment, self.solver.hierarchy.scaled), moment)
         last = len(self.settings) - 1
         # the slowest has a second try, from the film of the last step as it is
         tries = (*range(self.setting, last + 1), *((last,) if self.setting == last else ()))
@@ -160,7 +173,7 @@ class Stepper:
                 coupling.revert(self.solver.levels)
             elif self.touching is None:
                 # a pressure without its approach is a film that the first cycle has to move back
-                level.move(self.motion)
+                level.move(self.last.motion)
                 level.set_pressure(self.predictor.onward())
             pose_step(level, history + self.squeeze.onward(), heights, equations)
             try:
@@ -173,11 +186,25 @@ class Stepper:
                 raise StepError("diverged", np.nan) from error
             self.oil.accept(moment)
             self.predictor.note(level.pressure)
-            self.motion = level.rigid - start[1]
+            now = approach(level.separation, equations.gap)
+            approaches = np.array([now, self.last.approaches[0]])
+            self.last = LastStep(level.rigid - start[1], approaches)
             self.squeeze.advance()
             coupling.advance(self.solver.levels)
             return end
         raise StepError("stalled", np.inf)
+
+    def _opening(self, equations: Equations, moment: Moment) -> Equations:
+        """Return the equations of a moment with what the gap squeezes beyond the edges."""
+        level, outside = self.solver.finest, equations.outside
+        squeezed, oil = None, outside.far_field
+        if oil is not None:
+            squeezed = squeezed_by(level.grid, self.solver.hierarchy.scaled, moment)
+        if oil is None or squeezed is None:
+            return equations
+        past = (*self.last.approaches.tolist(), self.schedule.step)
+        opening = Opening(oil, squeezed, equations.gap, past)
+        return replace(equations, outside=outside._replace(far_field=opening))
 
     def choose(self, number: int) -> None:
         """Set the relaxation, with at least the threshold of dipoles that the time step needs."""
