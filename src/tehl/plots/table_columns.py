@@ -23,6 +23,7 @@ _KEYS = {
     "contact.slide_roll_ratio": "slide-to-roll ratio $(u_1 - u_2)/u_m$",
     "contact.entrainment_speed": "entrainment speed $u_m$",
     "contact.load": "load $w$",
+    "lubricant.temperature": "temperature of the oil",
     "contact.hertz_pressure": "Hertz pressure $p_h$",
     "contact.moes_load": "M",
     "contact.moes_speed": "L",
