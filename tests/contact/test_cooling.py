@@ -38,7 +38,7 @@ def test_a_half_space_is_the_sum_of_all_ring_sources_before(radius, speed, width
 
 @pytest.mark.parametrize(("radius", "speed", "half"), [(0.02, 5.0, 5e-3), (0.03, 1.0, 4e-3)])
 def test_the_even_heat_of_a_roller_is_that_of_a_strip(radius, speed, half):
-    """As a Hertz contact of the same width it would be 5 % warmer."""
+    """As a Hertz contact of the same width it would be 5 and 3 % warmer."""
     turn, kappa = 2 * math.pi * radius / speed, STEEL.diffusivity
     time = turn * np.arange(1, 300_001.0)
     ring = special.ive(0, radius**2 / (2 * kappa * time)) / (4 * np.pi * kappa * time) ** 1.5

@@ -1,6 +1,7 @@
 """What follows from a film where surfaces slide across it, spin, or meet along crowded lines."""
 
 import math
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -156,7 +157,7 @@ def test_where_surfaces_touch_the_stress_is_that_of_rubbing_alone():
 
 @pytest.mark.parametrize(("table", "error"), [("summits", 2e-3), ("boundary", 0.02)])
 def test_the_rolling_moment_is_that_of_the_whole_pressure(table: str, error: float):
-    """By the oil alone, and by the mean gap, 3 % of it with summits are missing, and more."""
+    """By the oil alone and the mean gap it is off by 0.21 with summits, and 2.7 with contact."""
     assert pressed(**{table: True}).rolling.closure_error == pytest.approx(0.0, abs=error)
 
 
@@ -208,4 +209,5 @@ def test_a_minimum_film_without_limit_has_no_lambda():
     film = film.but(errors=replace(film.errors, minimum_has_limit=False))
     assert film.roughness.lambda_minimum is None
     assert "by the minimum film" not in as_text(film)
-    assert "open" in report_text(film)
+    row = r"λ by the minimum film</td><td[^>]*>open<"
+    assert re.search(row, report_text(film))

@@ -35,7 +35,7 @@ to 3585 nodes."""
 OF_POINTS, OF_TOUCHING, COUPLED = (0.01, 7.5e-7), (0.08, 1.5e-5), 2.2
 """The same of other contacts, per node of half the domain: it doubles where no half is its mirror
 image. Touching through a boundary film takes more, and heat or thinning some times as much. Of 14
-runs, six of them of lines, twelve take half to twice that."""
+runs, five of them of lines, twelve take half to twice that."""
 CYCLES_OF_STRIDE, USUAL_STRIDE = 0.37, 2
 """Part by which a step costs more per mesh width that it passes beyond two, as more cycles follow:
 gears on 1281 and 2049 nodes, heated, and 3585, Newtonian, with a stride of four take 49, 58 and

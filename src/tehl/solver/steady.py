@@ -48,7 +48,8 @@ WITHOUT_ERROR = (NO_MEMORY, "error_not_reached", *TOO_COARSE)
 """Causes of failure for which a larger error may converge."""
 OF_RUN = 2.5
 """How many times as much of its error the flooded film of a run counts as passed on: it is one
-solve, and a run on half the mesh width takes eight times as long."""
+solve, and a run on half the mesh width takes eight times as long. A circle (M = 825, ratio 0.52)
+starts on 449 nodes per direction with it, and on 769 without."""
 
 
 def solve(

@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 from tehl import solve
 from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
 from tehl.contact.options import Options
 from tehl.contact.stress import Stress
 from tehl.post.stress.below import stress_below
@@ -253,17 +254,24 @@ def test_the_cycle_of_a_material_begins_without_load():
     assert found.dang_van == pytest.approx(0.5 - 0.3 * 0.2)
 
 
-def test_the_dang_van_stress_of_a_dry_line_is_that_of_its_whole_way():
-    """By the integral of Johnson (1985), 2.9, over 12 half-widths on each side: 0.236 p_h."""
+def rolled(load: float, speed: float) -> Result:
+    """Return a line of steel on steel in pure rolling, with its stress [N/m], [m/s]."""
     line = ContactProblem(
-        contact={"type": "line", "load_per_length": 6e5, "entrainment_speed": 2.0},
+        contact={"type": "line", "load_per_length": load, "entrainment_speed": speed},
         surface_1={"material": "steel", "radius": 0.01},
         surface_2={"material": "steel", "radius": "inf"},
         lubricant={"name": "mineral-oil"},
+        stress={},
     )
-    film = solve(line, Options(points=(257, 1)))
+    return solve(line, Options(points=(257, 1)))
+
+
+def test_the_dang_van_stress_of_a_dry_line_is_that_of_its_whole_way():
+    """By the integral of Johnson (1985), section 2.5, over 12 half-widths on each side."""
+    film = rolled(6e5, 2.0)
     found = stress_below(film, Stress())
     wide = HertzLine(film.problem.hertz.pressure, Stress().dang_van_slope).dang_van()
+    assert wide == pytest.approx(0.2255 * film.problem.hertz.pressure, rel=1e-3)
     assert found.dang_van_dry[0].max() == pytest.approx(wide, rel=0.01)
 
 
@@ -293,14 +301,7 @@ class HertzLine:
 
 def test_bars_hold_the_load_that_is_left_out():
     """Of a line whose inlet begins far ahead: a thousandth of it, to the power of the life."""
-    line = ContactProblem(
-        contact={"type": "line", "load_per_length": 1e5, "entrainment_speed": 4.0},
-        surface_1={"material": "steel", "radius": 0.01},
-        surface_2={"material": "steel", "radius": "inf"},
-        lubricant={"name": "mineral-oil"},
-        stress={},
-    )
-    film = solve(line, Options(points=(257, 1)))
+    film = rolled(1e5, 4.0)
     window = window_of(film, film.pressure)
     left_out = 1.0 - film.pressure[:, window.columns].sum() / film.pressure.sum()
     assert left_out > 1e-3

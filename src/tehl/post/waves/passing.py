@@ -79,7 +79,9 @@ def passing_wave(run: TransientSolution, surface: int, *, x: float = 0.0) -> Pas
         periods=periods,
         steps_per_period=steps,
         nabla=nabla,
-        published_ratio=amplitude_reduction(nabla, ratio=abs(wave.across / (wave.along or 1e-300))),
+        published_ratio=amplitude_reduction(
+            nabla, ratio=abs(wave.across / wave.along) if wave.along else math.inf
+        ),
     )
 
 
